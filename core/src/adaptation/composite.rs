@@ -1,0 +1,92 @@
+//! Composite adaptation: tracking error and remembered prediction error together.
+//!
+//! Tang and Arteaga: `θ̂' = −δ g − Γ1 Yᵀ s` (paper eq. 9). Proposed: `θ̂' = −Γ (β w + Yᵀ s + f_b)` (paper eq. 14), with
+//! the projection of eq. (19), (20). The memory is the same in both.
+
+use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, PredictionMemory, Projection};
+use crate::robots::Robot;
+use crate::scalar::Scalar;
+use nalgebra::SVector;
+
+/// How θ̂ follows the gradient and the memory.
+#[derive(Debug, Clone, Copy)]
+pub enum CompositeLaw<T, const P: usize> {
+    /// `θ̂' = −δ g − Γ1 Yᵀ s`. Source: paper eq. (9).
+    Additive {
+        /// Diagonal of Γ1.
+        gain: SVector<T, P>,
+        /// δ.
+        memory_gain: T,
+    },
+    /// `θ̂' = −Γ (β w + Yᵀ s + f_b)`. Source: paper eq. (14).
+    Projected {
+        /// Diagonal of Γ.
+        gain: SVector<T, P>,
+        /// β.
+        memory_gain: T,
+        /// f_b.
+        projection: Projection<T, P>,
+    },
+}
+
+/// A composite law: filter, memory, and how they move θ̂. States: filter, then memory.
+#[derive(Debug, Clone, Copy)]
+pub struct CompositeAdaptation<R, T, const N: usize, const P: usize> {
+    /// The filtered regressor.
+    pub filter: FilteredRegressor<R, T, N, P>,
+    /// The memory of prediction errors.
+    pub memory: PredictionMemory<R, T, N, P>,
+    /// How both move θ̂.
+    pub law: CompositeLaw<T, P>,
+}
+
+impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
+    #[inline]
+    fn theta_hat_rate(&self, w: &[T], gradient: &SVector<T, P>, theta_hat: &[T], rate: &mut [T]) {
+        match self {
+            Self::Additive { gain, memory_gain } => {
+                for k in 0..P {
+                    rate[k] = -(*memory_gain * w[k]) - gain[k] * gradient[k];
+                }
+            }
+            Self::Projected { gain, memory_gain, projection } => {
+                for k in 0..P {
+                    let drive = *memory_gain * w[k] + gradient[k];
+                    rate[k] = -gain[k] * (drive + projection.correction(k, theta_hat[k], drive));
+                }
+            }
+        }
+    }
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R, T, N, P>
+    for CompositeAdaptation<R, T, N, P>
+{
+    const FILTERS: bool = true;
+
+    fn states(&self) -> usize {
+        FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::STATES
+    }
+
+    fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
+        let (filter, memory) = states.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
+        self.filter.initialize(geometry, velocity, filter);
+        memory.fill(T::zero());
+    }
+
+    #[inline]
+    fn derivative(
+        &self,
+        input: &AdaptationInput<'_, R, T, N, P>,
+        states: &[T],
+        theta_hat_rate: &mut [T],
+        states_rate: &mut [T],
+    ) {
+        let (filter, memory) = states.split_at(FilteredRegressor::<R, T, N, P>::STATES);
+        let (filter_rate, memory_rate) = states_rate.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
+        let (filtered, filtered_torque) =
+            self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
+        self.law.theta_hat_rate(&memory[..P], input.gradient, input.theta_hat, theta_hat_rate);
+        self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
+    }
+}

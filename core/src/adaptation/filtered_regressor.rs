@@ -1,0 +1,66 @@
+//! Filtered regressor without acceleration: `Yf θ = W(s) Y(q, q̇, q̈) θ`, `W(s) = λf / (s + λf)`. Paper eq. (10) to (12).
+//!
+//! With the momentum `p = H v` and `ṗ + B θ = τ` (see [`Robot::balance_regressor`]), filtering gives
+//! `Yf θ = λf (p − W p) + W B θ`, so no acceleration is needed. Both filters of an entry share one state:
+//! `Yf = λf P + x`, `x' = λf (B − λf P − x)`, with `x(0) = −λf P(0)` so that the filter of p starts at p(0) and
+//! `Yf(0) = 0`. One state per live entry of the regressor, and one per joint for the filtered torque `τf = W τ`.
+
+use crate::robots::{Regressor, Robot};
+use crate::scalar::Scalar;
+use nalgebra::SVector;
+use std::marker::PhantomData;
+
+/// The filter; its states are the live entries' `x`, row by row, then `τf`.
+#[derive(Debug, Clone, Copy)]
+pub struct FilteredRegressor<R, T, const N: usize, const P: usize> {
+    /// λf, rad/s.
+    bandwidth: T,
+    robot: PhantomData<R>,
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegressor<R, T, N, P> {
+    /// A filter with bandwidth `λf` (rad/s).
+    pub fn new(bandwidth: T) -> Self {
+        Self { bandwidth, robot: PhantomData }
+    }
+
+    /// Number of states.
+    pub const STATES: usize = R::ENTRIES.len() + N;
+
+    /// States at the start: `Yf = 0`, `τf = 0`.
+    pub fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
+        let momentum = R::momentum_regressor(geometry, velocity);
+        let (x, tau_f) = states.split_at_mut(R::ENTRIES.len());
+        for (x, &entry) in x.iter_mut().zip(R::ENTRIES) {
+            *x = -self.bandwidth * momentum[entry];
+        }
+        tau_f.fill(T::zero());
+    }
+
+    /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative. Source: paper eq. (10) to (12).
+    #[inline]
+    pub fn advance(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        sign_velocity: &SVector<T, N>,
+        torque: &SVector<T, N>,
+        states: &[T],
+        rate: &mut [T],
+    ) -> (Regressor<T, N, P>, SVector<T, N>) {
+        let momentum = R::momentum_regressor(geometry, velocity);
+        let balance = R::balance_regressor(geometry, velocity, sign_velocity);
+        let (x, tau_f) = states.split_at(R::ENTRIES.len());
+        let (x_rate, tau_f_rate) = rate.split_at_mut(R::ENTRIES.len());
+        let mut filtered = Regressor::<T, N, P>::zeros();
+        for (n, &entry) in R::ENTRIES.iter().enumerate() {
+            let direct = self.bandwidth * momentum[entry];
+            filtered[entry] = direct + x[n];
+            x_rate[n] = self.bandwidth * (balance[entry] - filtered[entry]);
+        }
+        for i in 0..N {
+            tau_f_rate[i] = self.bandwidth * (torque[i] - tau_f[i]);
+        }
+        (filtered, SVector::from_column_slice(tau_f))
+    }
+}

@@ -1,0 +1,57 @@
+//! Adaptation laws: how the parameter estimates θ̂ move.
+//!
+//! The third of the three choices that make a scheme. A law may integrate states of its own beside θ̂.
+
+mod composite;
+mod filtered_regressor;
+mod gradient;
+mod prediction_memory;
+mod projection;
+
+pub use composite::{CompositeAdaptation, CompositeLaw};
+pub use filtered_regressor::FilteredRegressor;
+pub use gradient::GradientAdaptation;
+pub use prediction_memory::PredictionMemory;
+pub use projection::Projection;
+
+use crate::robots::Robot;
+use crate::scalar::Scalar;
+use nalgebra::SVector;
+
+/// What an adaptation law sees at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct AdaptationInput<'a, R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
+    /// Geometry at the joint angles.
+    pub geometry: &'a R::Geometry<T>,
+    /// Velocity v*, rad/s.
+    pub velocity: &'a SVector<T, N>,
+    /// `sgn(v*)`, as regularised; only filled in for laws that filter.
+    pub sign_velocity: &'a SVector<T, N>,
+    /// Applied torque, N·m.
+    pub torque: &'a SVector<T, N>,
+    /// `Yᵀ s` of the feedback law.
+    pub gradient: &'a SVector<T, P>,
+    /// Estimates θ̂.
+    pub theta_hat: &'a [T],
+}
+
+/// An adaptation law.
+pub trait AdaptationLaw<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>: Send {
+    /// Whether the law filters the dynamics and so needs `sgn(v*)`.
+    const FILTERS: bool;
+
+    /// Number of states beside θ̂.
+    fn states(&self) -> usize;
+
+    /// Writes the initial states for a start at this configuration and velocity v*.
+    fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]);
+
+    /// Writes `θ̂'` and the states' derivative.
+    fn derivative(
+        &self,
+        input: &AdaptationInput<'_, R, T, N, P>,
+        states: &[T],
+        theta_hat_rate: &mut [T],
+        states_rate: &mut [T],
+    );
+}

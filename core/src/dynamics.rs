@@ -1,0 +1,122 @@
+//! Rigid-body dynamics of any robot: friction's sign, inverse and forward dynamics, and the small linear solve.
+//!
+//! The equations of motion themselves belong to the robot (`robots/`); this file says what is done with them.
+
+use crate::robots::Robot;
+use crate::scalar::Scalar;
+use nalgebra::{SMatrix, SVector};
+use std::marker::PhantomData;
+
+/// Coulomb friction's sign, regularised as `tanh(v / width)`; `width` in rad/s, zero for the true sign.
+/// Chosen: the paper does not say how its simulation treats the jump (PHYSICS section 1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FrictionSign<T> {
+    /// `sgn(v)` with `sgn(0) = 0`.
+    True,
+    /// `tanh(v · inverse_width)`.
+    Tanh {
+        /// Reciprocal of the width, s/rad.
+        inverse_width: T,
+    },
+}
+
+impl<T: Scalar> FrictionSign<T> {
+    /// From a width in rad/s; zero means the true sign.
+    pub fn from_width(width_rad_s: f64) -> Self {
+        if width_rad_s == 0.0 { Self::True } else { Self::Tanh { inverse_width: T::splat(1.0 / width_rad_s) } }
+    }
+
+    /// `sgn(v)` per joint, as regularised.
+    #[inline]
+    pub fn of<const N: usize>(&self, v: &SVector<T, N>) -> SVector<T, N> {
+        match *self {
+            Self::True => v.map(Scalar::sign),
+            Self::Tanh { inverse_width } => v.map(|v| (v * inverse_width).tanh()),
+        }
+    }
+}
+
+/// A robot with known parameters θ, to be driven by torques: the plant of paper eq. (1).
+#[derive(Debug, Clone, Copy)]
+pub struct Plant<R, T, const N: usize, const P: usize> {
+    /// True parameters, SI units.
+    pub theta: SVector<T, P>,
+    /// How friction's sign is treated, in the plant and in the controller's model alike.
+    pub friction_sign: FrictionSign<T>,
+    robot: PhantomData<R>,
+}
+
+impl<R, T, const N: usize, const P: usize> Plant<R, T, N, P>
+where
+    R: Robot<N, P>,
+    T: Scalar,
+{
+    /// A plant with parameters `theta`.
+    pub fn new(theta: SVector<T, P>, friction_sign: FrictionSign<T>) -> Self {
+        Self { theta, friction_sign, robot: PhantomData }
+    }
+
+    /// Forward dynamics `q̈ = H(q)⁻¹ (τ − C(q, q̇) q̇ − D q̇ − F_c sgn(q̇) − g(q))`, rad/s². Source: paper eq. (1).
+    #[inline]
+    pub fn acceleration(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        sign_velocity: &SVector<T, N>,
+        torque: &SVector<T, N>,
+    ) -> SVector<T, N> {
+        let (inertia, bias) = R::inertia_and_bias(geometry, &self.theta, velocity, sign_velocity);
+        solve_symmetric(&inertia, torque - bias)
+    }
+
+    /// Inverse dynamics `τ = H(q) q̈ + C(q, q̇) q̇ + D q̇ + F_c sgn(q̇) + g(q)`, N·m. Source: paper eq. (1).
+    pub fn torque(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        acceleration: &SVector<T, N>,
+    ) -> SVector<T, N> {
+        let sign = self.friction_sign.of(velocity);
+        let (inertia, bias) = R::inertia_and_bias(geometry, &self.theta, velocity, &sign);
+        inertia * acceleration + bias
+    }
+}
+
+/// Solves `A x = b` for symmetric positive definite `A` by `L D Lᵀ`: no square root, no pivoting, no failure path
+/// (an indefinite `A` gives large or non-finite numbers, which the simulation reports as divergence).
+#[inline]
+pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVector<T, N>) -> SVector<T, N> {
+    let mut l = *a;
+    let mut d = SVector::<T, N>::zeros();
+    let mut inverse_d = SVector::<T, N>::zeros();
+    for j in 0..N {
+        d[j] = a[(j, j)];
+        for k in 0..j {
+            let ld = l[(j, k)] * d[k];
+            d[j] -= l[(j, k)] * ld;
+        }
+        inverse_d[j] = T::one() / d[j];
+        for i in j + 1..N {
+            let mut sum = a[(i, j)];
+            for k in 0..j {
+                sum -= l[(i, k)] * l[(j, k)] * d[k];
+            }
+            l[(i, j)] = sum * inverse_d[j];
+        }
+    }
+    let mut x = b;
+    for i in 0..N {
+        for k in 0..i {
+            let known = x[k];
+            x[i] -= l[(i, k)] * known;
+        }
+    }
+    for i in (0..N).rev() {
+        x[i] *= inverse_d[i];
+        for k in i + 1..N {
+            let known = x[k];
+            x[i] -= l[(k, i)] * known;
+        }
+    }
+    x
+}

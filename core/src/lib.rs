@@ -1,0 +1,26 @@
+//! Adaptive control of robot arms: a pure, deterministic laboratory.
+//!
+//! ```text
+//! Scenario --simulate--> Recording --metrics--> Report
+//! ```
+//!
+//! A control scheme is three choices: a velocity source ([`velocity`]), a feedback law ([`control`]) and an adaptation
+//! law ([`adaptation`]). Start at [`scenario::Scenario`]; the paper's equations live in the files that name them.
+//! Nothing here reads files, clocks or the network, and every target computes the same bits.
+
+pub mod adaptation;
+pub mod control;
+pub mod dynamics;
+pub mod integrators;
+pub mod metrics;
+pub mod recording;
+pub mod regressor;
+pub mod robots;
+pub mod scalar;
+pub mod scenario;
+pub mod simulation;
+pub mod trajectories;
+pub mod velocity;
+
+/// Version of this crate, as reports carry it.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

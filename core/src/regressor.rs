@@ -1,0 +1,33 @@
+//! Products with a regressor over its live entries only: the model torque `Y θ` and the gradient `Yᵀ s`.
+
+use crate::robots::{Regressor, Robot};
+use crate::scalar::Scalar;
+use nalgebra::SVector;
+
+/// Model torque `Y θ`, N·m. `theta` holds the `P` parameters. Source: paper eq. (2).
+#[inline]
+pub fn model_torque<R, T, const N: usize, const P: usize>(y: &Regressor<T, N, P>, theta: &[T]) -> SVector<T, N>
+where
+    R: Robot<N, P>,
+    T: Scalar,
+{
+    let mut torque = SVector::<T, N>::zeros();
+    for &(i, k) in R::ENTRIES {
+        torque[i] += y[(i, k)] * theta[k];
+    }
+    torque
+}
+
+/// Gradient `Yᵀ s` that every adaptation law here descends along. Source: paper eq. (4), (9), (14).
+#[inline]
+pub fn gradient<R, T, const N: usize, const P: usize>(y: &Regressor<T, N, P>, s: &SVector<T, N>) -> SVector<T, P>
+where
+    R: Robot<N, P>,
+    T: Scalar,
+{
+    let mut gradient = SVector::<T, P>::zeros();
+    for &(i, k) in R::ENTRIES {
+        gradient[k] += y[(i, k)] * s[i];
+    }
+    gradient
+}

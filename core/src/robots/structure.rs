@@ -1,0 +1,100 @@
+//! Compile-time bookkeeping of a regressor's zeros: from the pattern that a robot states to the lists that loops run over.
+
+/// How many entries of the pattern are live.
+pub const fn count_entries<const N: usize, const P: usize>(live: &[[bool; P]; N]) -> usize {
+    let mut count = 0;
+    let mut row = 0;
+    while row < N {
+        let mut column = 0;
+        while column < P {
+            if live[row][column] {
+                count += 1;
+            }
+            column += 1;
+        }
+        row += 1;
+    }
+    count
+}
+
+/// The live entries as (row, column), row by row; `L` is [`count_entries`].
+pub const fn list_entries<const N: usize, const P: usize, const L: usize>(
+    live: &[[bool; P]; N],
+) -> [(usize, usize); L] {
+    let mut list = [(0, 0); L];
+    let mut next = 0;
+    let mut row = 0;
+    while row < N {
+        let mut column = 0;
+        while column < P {
+            if live[row][column] {
+                list[next] = (row, column);
+                next += 1;
+            }
+            column += 1;
+        }
+        row += 1;
+    }
+    list
+}
+
+/// Whether two parameters meet in a row, so that entry (i, j) of `YᵀY` can differ from zero.
+const fn share_row<const N: usize, const P: usize>(live: &[[bool; P]; N], i: usize, j: usize) -> bool {
+    let mut row = 0;
+    while row < N {
+        if live[row][i] && live[row][j] {
+            return true;
+        }
+        row += 1;
+    }
+    false
+}
+
+/// How many pairs `i <= j` of parameters share a row.
+pub const fn count_pairs<const N: usize, const P: usize>(live: &[[bool; P]; N]) -> usize {
+    let mut count = 0;
+    let mut i = 0;
+    while i < P {
+        let mut j = i;
+        while j < P {
+            if share_row(live, i, j) {
+                count += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    count
+}
+
+/// The pairs `i <= j` of parameters that share a row; `L` is [`count_pairs`].
+pub const fn list_pairs<const N: usize, const P: usize, const L: usize>(live: &[[bool; P]; N]) -> [(usize, usize); L] {
+    let mut list = [(0, 0); L];
+    let mut next = 0;
+    let mut i = 0;
+    while i < P {
+        let mut j = i;
+        while j < P {
+            if share_row(live, i, j) {
+                list[next] = (i, j);
+                next += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PATTERN: [[bool; 3]; 2] = [[true, false, true], [false, true, false]];
+
+    #[test]
+    fn lists_follow_the_pattern() {
+        assert_eq!(list_entries::<2, 3, { count_entries(&PATTERN) }>(&PATTERN), [(0, 0), (0, 2), (1, 1)]);
+        assert_eq!(list_pairs::<2, 3, { count_pairs(&PATTERN) }>(&PATTERN), [(0, 0), (0, 2), (1, 1), (2, 2)]);
+    }
+}

@@ -1,0 +1,92 @@
+//! The one place where numbers become arithmetic: the scalar that all of the physics is generic over.
+//!
+//! Every transcendental function goes through here, so that native code and WASM execute the same operations and return
+//! the same bits. `f64` uses libm, which is plain IEEE arithmetic; square root is exact everywhere and uses the hardware.
+//! A SIMD type takes part by implementing [`Scalar`]: comparisons give masks, and branches on data are [`Scalar::select`].
+
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use num_traits::{One, Zero};
+use std::ops::Neg;
+
+/// A real number, or several side by side, with the operations that the closed loop needs.
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Send
+    + Sync
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+{
+    /// Result of a comparison: one truth value per lane.
+    type Mask: Copy;
+
+    /// The constant `value` in every lane.
+    fn splat(value: f64) -> Self;
+    /// `(sin x, cos x)`; `x` in rad.
+    fn sin_cos(self) -> (Self, Self);
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// `self < other`, lane by lane; false where either is not a number.
+    fn less_than(self, other: Self) -> Self::Mask;
+    /// `if_true` where the mask holds, `if_false` elsewhere.
+    fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
+
+    /// Signum with `sign(0) = 0`, as friction at rest needs it.
+    fn sign(self) -> Self {
+        let zero = Self::zero();
+        let negative = Self::select(self.less_than(zero), -Self::one(), zero);
+        Self::select(zero.less_than(self), Self::one(), negative)
+    }
+}
+
+impl Scalar for f64 {
+    type Mask = bool;
+
+    #[inline]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+    #[inline]
+    fn tanh(self) -> Self {
+        libm::tanh(self)
+    }
+    #[inline]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline]
+    fn less_than(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline]
+    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+        if mask { if_true } else { if_false }
+    }
+}
+
+/// `base^exponent` for step-size control; libm on every target.
+pub(crate) fn power(base: f64, exponent: f64) -> f64 {
+    libm::pow(base, exponent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sign_is_zero_at_rest() {
+        assert_eq!([-2.0, -0.0, 0.0, 3.0].map(Scalar::sign), [-1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(f64::NAN.sign(), 0.0);
+    }
+}

@@ -1,0 +1,244 @@
+//! Scenarios: one document that says everything a run depends on, checked once, hashed, and run.
+//!
+//! `ScenarioDocument` is what people write; [`Scenario`] is what has been checked and cannot be wrong any more: after it
+//! the physics cannot fail except by diverging. Reads any serde format and knows no JSON text.
+
+mod build;
+mod document;
+mod error;
+mod gains;
+mod presets;
+mod report;
+mod validate;
+
+pub use document::{
+    FORMAT, FrictionDocument, InitialDocument, InitialVelocityDocument, IntegrationDocument, MethodDocument,
+    PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
+};
+pub use error::{Problem, ScenarioError};
+pub use gains::{GainInfo, GainSet, GainShape, ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
+pub use presets::{PRESETS, Preset, preset};
+pub use report::{OutcomeKind, Report};
+pub use validate::{LIMITS, Limits};
+
+use crate::metrics::Metrics;
+use crate::recording::Recording;
+use crate::robots::{CrsA465, RobotData};
+use crate::simulation::{Settings, Simulation, Snapshot, SnapshotError, StateSpace};
+use serde::{Deserialize, Deserializer};
+
+/// A control scheme of the study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Scheme {
+    /// The proposed scheme, without velocity sensor. Source: paper section 3.3.
+    Proposed,
+    /// Tang and Arteaga (1994). Source: paper section 3.2.
+    TangArteaga,
+    /// Slotine and Li (1987). Source: paper section 3.1.
+    SlotineLi,
+}
+
+impl Scheme {
+    /// Every scheme, in the order of the paper's tables.
+    pub const ALL: [Self; 3] = [Self::Proposed, Self::TangArteaga, Self::SlotineLi];
+
+    /// Identifier in scenarios.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Proposed => "proposed",
+            Self::TangArteaga => "tang_arteaga",
+            Self::SlotineLi => "slotine_li",
+        }
+    }
+
+    /// Name for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Proposed => "Proposed",
+            Self::TangArteaga => "Tang and Arteaga",
+            Self::SlotineLi => "Slotine and Li",
+        }
+    }
+
+    /// Its gains, without those of a group such as the projection's bounds.
+    pub const fn gains(self) -> &'static [GainInfo] {
+        match self {
+            Self::Proposed => ProposedGains::TABLE,
+            Self::TangArteaga => TangArteagaGains::TABLE,
+            Self::SlotineLi => SlotineLiGains::TABLE,
+        }
+    }
+
+    /// The paper's scenario with the paper's gains.
+    pub fn paper(self) -> ScenarioDocument {
+        ScenarioDocument::paper(match self {
+            Self::Proposed => SchemeDocument::Proposed(None),
+            Self::TangArteaga => SchemeDocument::TangArteaga(None),
+            Self::SlotineLi => SchemeDocument::SlotineLi(None),
+        })
+    }
+}
+
+/// A scenario that has been checked. Holds the document with everything filled in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    document: ScenarioDocument,
+    robot: &'static RobotData,
+}
+
+/// A finished run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// The report on it.
+    pub report: Report,
+    /// All samples.
+    pub recording: Recording,
+}
+
+/// Why a document could not be read: the reader's own error and where, or what is wrong with what was read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError<E: std::error::Error> {
+    /// The reader failed.
+    #[error("{}", ScenarioError::new(pointer.clone(), Problem::Malformed { message: source.to_string() }))]
+    Document {
+        /// JSON pointer to where it failed.
+        pointer: String,
+        /// Its error.
+        source: E,
+    },
+    /// The document is readable but not allowed.
+    #[error(transparent)]
+    Invalid(#[from] ScenarioError),
+}
+
+impl<E: std::error::Error> ReadError<E> {
+    /// JSON pointer to the offending field.
+    pub fn pointer(&self) -> &str {
+        match self {
+            Self::Document { pointer, .. } => pointer,
+            Self::Invalid(error) => &error.pointer,
+        }
+    }
+}
+
+/// Reads any document through any serde format; an error knows where in the document it arose.
+pub fn read_document<'de, T, D>(deserializer: D) -> Result<T, ReadError<D::Error>>
+where
+    T: Deserialize<'de>,
+    D: Deserializer<'de>,
+    D::Error: std::error::Error,
+{
+    serde_path_to_error::deserialize(deserializer).map_err(|error| {
+        let mut pointer = String::new();
+        for segment in error.path() {
+            use serde_path_to_error::Segment;
+            match segment {
+                Segment::Seq { index } => pointer.push_str(&format!("/{index}")),
+                Segment::Map { key } => pointer.push_str(&format!("/{key}")),
+                Segment::Enum { .. } | Segment::Unknown => {}
+            }
+        }
+        ReadError::Document { pointer, source: error.into_inner() }
+    })
+}
+
+impl Scenario {
+    /// Checks a document and fills in what it leaves out.
+    pub fn new(document: ScenarioDocument) -> Result<Self, ScenarioError> {
+        let (document, robot) = validate::resolve(document)?;
+        Ok(Self { document, robot })
+    }
+
+    /// Reads and checks a document.
+    pub fn read<'de, D>(deserializer: D) -> Result<Self, ReadError<D::Error>>
+    where
+        D: Deserializer<'de>,
+        D::Error: std::error::Error,
+    {
+        Ok(Self::new(read_document(deserializer)?)?)
+    }
+
+    /// The document with everything filled in: the canonical form.
+    pub fn document(&self) -> &ScenarioDocument {
+        &self.document
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &'static RobotData {
+        self.robot
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> Scheme {
+        match self.document.scheme {
+            SchemeDocument::Proposed(_) => Scheme::Proposed,
+            SchemeDocument::TangArteaga(_) => Scheme::TangArteaga,
+            SchemeDocument::SlotineLi(_) => Scheme::SlotineLi,
+        }
+    }
+
+    /// Hash of the canonical form (its CBOR encoding): equal hashes mean equal scenarios, however they were written.
+    pub fn hash(&self) -> String {
+        let mut bytes = Vec::new();
+        // A document holds only strings, numbers and lists, and a vector takes whatever is written.
+        if ciborium::into_writer(&self.document, &mut bytes).is_err() {
+            unreachable!("a scenario document always encodes");
+        }
+        blake3::hash(&bytes).to_hex().to_string()
+    }
+
+    /// How long, how fine, what is kept.
+    pub fn settings(&self) -> Settings {
+        build::settings(&self.document, self.robot)
+    }
+
+    /// The closed loop as a state space.
+    pub fn closed_loop(&self) -> Box<dyn StateSpace<f64>> {
+        // The one robot so far; validation lets no other name through.
+        build::closed_loop::<CrsA465, f64, 3, 18>(&self.document)
+    }
+
+    /// A run at its start.
+    pub fn start(&self) -> Simulation {
+        Simulation::new(self.hash(), self.closed_loop(), self.settings())
+    }
+
+    /// A run where a snapshot left it.
+    pub fn resume(&self, snapshot: Snapshot) -> Result<Simulation, SnapshotError> {
+        Simulation::resume(self.hash(), self.closed_loop(), self.settings(), snapshot)
+    }
+
+    /// Runs to the end.
+    pub fn run(&self) -> Run {
+        let mut simulation = self.start();
+        simulation.advance(u64::MAX);
+        self.finish(simulation)
+    }
+
+    /// The report on a run of this scenario, with its recording. A run that has not ended is reported as far as it came.
+    pub fn finish(&self, simulation: Simulation) -> Run {
+        let settings = self.settings();
+        let (outcome, at_s, reason) = report::describe(simulation.outcome());
+        let recording = simulation.recording();
+        let observed = self.scheme() == Scheme::Proposed;
+        let interval_s = settings.duration_s / settings.samples as f64;
+        let report = Report {
+            format: Report::FORMAT.to_owned(),
+            core_version: crate::VERSION.to_owned(),
+            robot: self.robot.id.to_owned(),
+            scheme: self.scheme().id().to_owned(),
+            scenario_hash: self.hash(),
+            trajectory_hash: recording.hash(),
+            outcome,
+            at_s,
+            reason: reason.map(|reason| reason.to_string()),
+            metrics: Metrics::of(recording, settings.samples, self.robot, observed, interval_s),
+            theta_hat_end: simulation.theta_hat().to_vec(),
+            q_end_rad: simulation.state()[..self.robot.joint_count()].to_vec(),
+            samples: recording.len().min(settings.samples),
+            steps: simulation.steps(),
+            evaluations: simulation.evaluations(),
+        };
+        Run { report, recording: simulation.into_recording() }
+    }
+}

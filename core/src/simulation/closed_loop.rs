@@ -1,0 +1,190 @@
+//! The closed loop: one robot, one trajectory, and a scheme put together from its three choices.
+//!
+//! State vector: q, q̇, the velocity source's states, θ̂, the adaptation law's states. All that depends on q alone is
+//! computed once per evaluation and shared by plant, controller and filter.
+
+use super::StateSpace;
+use crate::adaptation::{AdaptationInput, AdaptationLaw};
+use crate::control::{SlidingFeedback, SlidingSignals};
+use crate::dynamics::Plant;
+use crate::regressor::{gradient, model_torque};
+use crate::robots::{Regressor, Robot};
+use crate::scalar::Scalar;
+use crate::trajectories::{Desired, Fourier};
+use crate::velocity::{VelocityEstimate, VelocitySource};
+use nalgebra::SVector;
+
+/// How a run starts. Chosen: the paper only says where (PHYSICS section 2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InitialVelocity {
+    /// `q̇(0) = q̇_d(0)`.
+    Desired,
+    /// `q̇(0) = 0`.
+    Rest,
+}
+
+/// A robot under adaptive control; `V` the velocity source, `A` the adaptation law.
+#[derive(Debug, Clone)]
+pub struct ClosedLoop<R, V, A, T, const N: usize, const P: usize> {
+    /// The arm.
+    pub plant: Plant<R, T, N, P>,
+    /// Where it should go.
+    pub trajectory: Fourier<T, N>,
+    /// First choice: where the velocity comes from.
+    pub velocity_source: V,
+    /// Second choice: how torque follows from errors.
+    pub feedback: SlidingFeedback<T, N>,
+    /// Third choice: how estimates move.
+    pub adaptation: A,
+    /// How the run starts.
+    pub initial_velocity: InitialVelocity,
+}
+
+/// Everything between the state and the torque at one instant.
+struct Evaluation<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
+    geometry: R::Geometry<T>,
+    velocity: SVector<T, N>,
+    sign_velocity: SVector<T, N>,
+    estimate: VelocityEstimate<T, N>,
+    sliding: SlidingSignals<T, N>,
+    regressor: Regressor<T, N, P>,
+    torque: SVector<T, N>,
+}
+
+/// Where the parts of the state vector begin.
+#[derive(Clone, Copy)]
+struct Layout {
+    velocity_source: usize,
+    theta_hat: usize,
+    adaptation: usize,
+    len: usize,
+}
+
+impl<R, V, A, T, const N: usize, const P: usize> ClosedLoop<R, V, A, T, N, P>
+where
+    R: Robot<N, P>,
+    V: VelocitySource<T, N>,
+    A: AdaptationLaw<R, T, N, P>,
+    T: Scalar,
+{
+    #[inline]
+    fn layout(&self) -> Layout {
+        let velocity_source = 2 * N;
+        let theta_hat = velocity_source + self.velocity_source.states();
+        let adaptation = theta_hat + P;
+        Layout { velocity_source, theta_hat, adaptation, len: adaptation + self.adaptation.states() }
+    }
+
+    #[inline]
+    fn evaluate(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
+        let layout = self.layout();
+        let position = SVector::<T, N>::from_column_slice(&x[..N]);
+        let velocity = SVector::<T, N>::from_column_slice(&x[N..2 * N]);
+        let geometry = R::geometry(&position);
+        let source_states = &x[layout.velocity_source..layout.theta_hat];
+        let estimate = self.velocity_source.estimate(&position, &velocity, desired, source_states);
+        let sliding = self.feedback.signals(&position, &estimate.velocity, desired);
+        let sign_reference = self.plant.friction_sign.of(&sliding.reference_velocity);
+        let regressor = R::regressor(
+            &geometry,
+            &sliding.coriolis_velocity,
+            &sliding.reference_velocity,
+            &sliding.reference_acceleration,
+            &sign_reference,
+        );
+        let model = model_torque::<R, T, N, P>(&regressor, &x[layout.theta_hat..layout.adaptation]);
+        let torque = self.feedback.torque(&sliding, &model);
+        let sign_velocity = self.plant.friction_sign.of(&velocity);
+        Evaluation { geometry, velocity, sign_velocity, estimate, sliding, regressor, torque }
+    }
+}
+
+impl<R, V, A, T, const N: usize, const P: usize> StateSpace<T> for ClosedLoop<R, V, A, T, N, P>
+where
+    R: Robot<N, P>,
+    V: VelocitySource<T, N>,
+    A: AdaptationLaw<R, T, N, P>,
+    T: Scalar,
+{
+    fn len(&self) -> usize {
+        self.layout().len
+    }
+
+    fn initialize(&self, x: &mut [T]) {
+        let layout = self.layout();
+        let desired = self.trajectory.at(0.0);
+        let (motion, rest) = x.split_at_mut(2 * N);
+        motion[..N].copy_from_slice(desired.position.as_slice());
+        match self.initial_velocity {
+            InitialVelocity::Desired => motion[N..].copy_from_slice(desired.velocity.as_slice()),
+            InitialVelocity::Rest => motion[N..].fill(T::zero()),
+        }
+        let velocity = SVector::<T, N>::from_column_slice(&motion[N..]);
+        let (source, rest) = rest.split_at_mut(layout.theta_hat - layout.velocity_source);
+        self.velocity_source.initialize(&desired.position, source);
+        let estimate = self.velocity_source.estimate(&desired.position, &velocity, &desired, source);
+        let (theta_hat, law) = rest.split_at_mut(P);
+        theta_hat.fill(T::zero());
+        self.adaptation.initialize(&R::geometry(&desired.position), &estimate.velocity, law);
+    }
+
+    fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
+        let layout = self.layout();
+        // One check here removes those of every part below.
+        let (x, rate) = (&x[..layout.len], &mut rate[..layout.len]);
+        let desired = self.trajectory.at(time_s);
+        let now = self.evaluate(&desired, x);
+
+        let acceleration = self.plant.acceleration(&now.geometry, &now.velocity, &now.sign_velocity, &now.torque);
+        rate[..N].copy_from_slice(now.velocity.as_slice());
+        rate[N..2 * N].copy_from_slice(acceleration.as_slice());
+        self.velocity_source.derivative(&now.estimate, &mut rate[layout.velocity_source..layout.theta_hat]);
+
+        let sign_estimate = if A::FILTERS && !V::MEASURED {
+            self.plant.friction_sign.of(&now.estimate.velocity)
+        } else {
+            now.sign_velocity
+        };
+        let input = AdaptationInput::<R, T, N, P> {
+            geometry: &now.geometry,
+            velocity: &now.estimate.velocity,
+            sign_velocity: &sign_estimate,
+            torque: &now.torque,
+            gradient: &gradient::<R, T, N, P>(&now.regressor, &now.sliding.sliding_variable),
+            theta_hat: &x[layout.theta_hat..layout.adaptation],
+        };
+        let (theta_hat_rate, law_rate) = rate[layout.theta_hat..].split_at_mut(P);
+        self.adaptation.derivative(&input, &x[layout.adaptation..], theta_hat_rate, law_rate);
+    }
+
+    fn observe(&self, time_s: f64, x: &[T], row: &mut [T]) {
+        let layout = self.layout();
+        let desired = self.trajectory.at(time_s);
+        let now = self.evaluate(&desired, x);
+        let blocks = [
+            now.sliding.error,
+            now.velocity - desired.velocity,
+            now.estimate.observer_error,
+            now.torque,
+            SVector::<T, N>::from_column_slice(&x[..N]),
+        ];
+        let (joints, rest) = row.split_at_mut(blocks.len() * N);
+        for (out, block) in joints.chunks_exact_mut(N).zip(&blocks) {
+            out.copy_from_slice(block.as_slice());
+        }
+        rest[..P].copy_from_slice(&x[layout.theta_hat..layout.adaptation]);
+        rest[P..].copy_from_slice(now.sliding.sliding_variable.as_slice());
+    }
+
+    fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]) {
+        let desired = self.trajectory.at(time_s);
+        for joint in 0..N {
+            error[joint] = x[joint] - desired.position[joint];
+        }
+    }
+
+    fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T] {
+        let layout = self.layout();
+        &x[layout.theta_hat..layout.adaptation]
+    }
+}

@@ -1,0 +1,88 @@
+//! Simulation: a state space, an integrator and a recording, advanced in slices and resumable to the same bits.
+//!
+//! Knows nothing of scenarios or robots: it sees a [`StateSpace`]. A diverging run is an [`Outcome`], not an error.
+
+mod closed_loop;
+mod outcome;
+mod run;
+mod snapshot;
+
+pub use closed_loop::{ClosedLoop, InitialVelocity};
+pub use outcome::{Divergence, Outcome, TRACKING_ERROR_LIMIT_RAD};
+pub use run::Simulation;
+pub use snapshot::{Snapshot, SnapshotError};
+
+use crate::integrators::Tolerances;
+use crate::recording::Columns;
+use crate::scalar::Scalar;
+
+/// A dynamical system `x' = f(t, x)` that tracks something and can be observed.
+pub trait StateSpace<T: Scalar>: Send {
+    /// Number of states.
+    fn len(&self) -> usize;
+    /// Whether there is nothing to integrate.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Writes the initial state.
+    fn initialize(&self, x: &mut [T]);
+    /// Writes `f(t, x)`.
+    fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
+    /// Writes one row of a recording without its time: see [`Columns`].
+    fn observe(&self, time_s: f64, x: &[T], row: &mut [T]);
+    /// Writes the tracking error per joint, rad.
+    fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]);
+    /// The estimates within a state.
+    fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T];
+}
+
+/// How to integrate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Fixed-step Runge-Kutta of order 4.
+    Rk4,
+    /// Adaptive Dormand-Prince 5(4) with dense output.
+    Dopri5(Tolerances),
+}
+
+/// How long, how fine, and how much of it to keep. Validated by the scenario.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Integration method.
+    pub method: Method,
+    /// Step (fixed) or largest step (adaptive), s.
+    pub step_s: f64,
+    /// Duration T, s.
+    pub duration_s: f64,
+    /// Number of samples k, at `t_i = i T / k`; a completed run records its end as one more row.
+    pub samples: usize,
+    /// Shape of a recorded row.
+    pub columns: Columns,
+}
+
+impl Settings {
+    /// Time of sample `i`, s.
+    pub fn sample_time_s(&self, i: usize) -> f64 {
+        i as f64 * self.duration_s / self.samples as f64
+    }
+
+    /// Number of fixed steps; the last one is shorter where the step does not divide the duration.
+    pub fn steps(&self) -> u64 {
+        let exact = self.duration_s / self.step_s;
+        // Rounding in the quotient must not add a step of nearly no length.
+        (exact - 1e-9 * exact.max(1.0)).ceil().max(1.0) as u64
+    }
+
+    /// Time at which fixed step `n` starts, s; the last step ends at the duration exactly.
+    pub fn step_time_s(&self, n: u64) -> f64 {
+        if n >= self.steps() { self.duration_s } else { n as f64 * self.step_s }
+    }
+
+    /// Steps per sample, where every sample falls on the start of a step.
+    pub fn steps_per_sample(&self) -> Option<u64> {
+        let steps = self.steps();
+        let samples = self.samples as u64;
+        let covers = (steps as f64 * self.step_s - self.duration_s).abs() <= 1e-9 * self.duration_s;
+        (covers && steps.is_multiple_of(samples)).then(|| steps / samples)
+    }
+}

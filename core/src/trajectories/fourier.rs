@@ -1,0 +1,83 @@
+//! Finite Fourier series per joint: `q_d = offset + Σ_k (a_k sin kωt + b_k cos kωt)`. Paper eq. (24) is one of them.
+//!
+//! One sine and cosine per instant: harmonics follow by the angle-addition theorem.
+
+use super::Desired;
+use crate::scalar::Scalar;
+use nalgebra::SVector;
+
+/// A Fourier trajectory for `N` joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fourier<T, const N: usize> {
+    /// Base angular frequency ω, rad/s.
+    frequency_rad_s: f64,
+    /// Constant part, rad.
+    offset: SVector<T, N>,
+    /// Amplitudes of `sin kωt` and `cos kωt` for k = 1, 2, ..., rad.
+    harmonics: Vec<(SVector<T, N>, SVector<T, N>)>,
+}
+
+impl<T: Scalar, const N: usize> Fourier<T, N> {
+    /// From angles in degrees: `sine_deg[joint][k − 1]`, `cosine_deg` likewise; rows shorter than the longest end in zeros.
+    pub fn from_degrees(
+        frequency_rad_s: f64,
+        offset_deg: &[f64],
+        sine_deg: &[Vec<f64>],
+        cosine_deg: &[Vec<f64>],
+    ) -> Self {
+        let amplitude = |rows: &[Vec<f64>], k: usize| {
+            SVector::from_fn(|joint, _| {
+                T::splat(rows.get(joint).and_then(|row| row.get(k)).map_or(0.0, |deg| deg.to_radians()))
+            })
+        };
+        let count = sine_deg.iter().chain(cosine_deg).map(Vec::len).max().unwrap_or(0);
+        Self {
+            frequency_rad_s,
+            offset: SVector::from_fn(|joint, _| T::splat(offset_deg[joint].to_radians())),
+            harmonics: (0..count).map(|k| (amplitude(sine_deg, k), amplitude(cosine_deg, k))).collect(),
+        }
+    }
+
+    /// Desired motion at `time_s`. Units: rad, rad/s, rad/s². Source: paper eq. (24).
+    pub fn at(&self, time_s: f64) -> Desired<T, N> {
+        let mut desired = Desired { position: self.offset, velocity: SVector::zeros(), acceleration: SVector::zeros() };
+        let (sin1, cos1) = Scalar::sin_cos(self.frequency_rad_s * time_s);
+        let (mut sin, mut cos) = (sin1, cos1);
+        let mut rate = self.frequency_rad_s;
+        for (a, b) in &self.harmonics {
+            let (s, c) = (T::splat(sin), T::splat(cos));
+            let wave = a * s + b * c;
+            desired.position += wave;
+            desired.velocity += (a * c - b * s) * T::splat(rate);
+            desired.acceleration -= wave * T::splat(rate * rate);
+            (sin, cos) = (sin * cos1 + cos * sin1, cos * cos1 - sin * sin1);
+            rate += self.frequency_rad_s;
+        }
+        desired
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_and_derivatives_match_closed_form() {
+        let trajectory = Fourier::<f64, 2>::from_degrees(
+            0.7,
+            &[10.0, -20.0],
+            &[vec![5.0, 0.0, 2.5], vec![15.0]],
+            &[vec![], vec![1.0, 2.0]],
+        );
+        for t in [0.0, 0.3, 5.1, 1000.0] {
+            let d = trajectory.at(t);
+            let w = 0.7;
+            let q1 = 10.0 + 5.0 * f64::sin(w * t) + 2.5 * f64::sin(3.0 * w * t);
+            let v2 = 15.0 * w * f64::cos(w * t) - w * f64::sin(w * t) - 4.0 * w * f64::sin(2.0 * w * t);
+            let a1 = -5.0 * w * w * f64::sin(w * t) - 22.5 * w * w * f64::sin(3.0 * w * t);
+            assert!((d.position[0].to_degrees() - q1).abs() < 1e-11, "{t}");
+            assert!((d.velocity[1].to_degrees() - v2).abs() < 1e-11, "{t}");
+            assert!((d.acceleration[0].to_degrees() - a1).abs() < 1e-11, "{t}");
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The paper's model-free velocity observer, eq. (21) to (23).
+//!
+//! `z = q − q̂`, `ξ̇ = z`, `ζ = q̇_d − Λx e + Kd Λz ξ`, `q̂̇ = ζ + Λz z + Kd z`, and the velocity handed out is
+//! `v* = q̂̇ − Λz z = ζ + Kd z`. The paper prints q̇ where q̂̇ must stand: with q̇ it could not be computed without the sensor.
+
+use super::{VelocityEstimate, VelocitySource};
+use crate::scalar::Scalar;
+use crate::trajectories::Desired;
+use nalgebra::SVector;
+
+/// The observer with diagonal gains; states q̂ then ξ. Source: paper eq. (21) to (23).
+#[derive(Debug, Clone, Copy)]
+pub struct ModelFreeObserver<T, const N: usize> {
+    /// Λz, 1/s.
+    pub lambda_z: SVector<T, N>,
+    /// Λx, 1/s.
+    pub lambda_x: SVector<T, N>,
+    /// Kd, 1/s.
+    pub k_d: SVector<T, N>,
+}
+
+impl<T: Scalar, const N: usize> VelocitySource<T, N> for ModelFreeObserver<T, N> {
+    const MEASURED: bool = false;
+
+    fn states(&self) -> usize {
+        2 * N
+    }
+
+    /// q̂(0) = q(0), ξ(0) = 0 (chosen; PHYSICS section 2).
+    fn initialize(&self, position: &SVector<T, N>, states: &mut [T]) {
+        states[..N].copy_from_slice(position.as_slice());
+        states[N..].fill(T::zero());
+    }
+
+    #[inline]
+    fn estimate(
+        &self,
+        position: &SVector<T, N>,
+        _velocity: &SVector<T, N>,
+        desired: &Desired<T, N>,
+        states: &[T],
+    ) -> VelocityEstimate<T, N> {
+        let (q_hat, xi) = states.split_at(N);
+        let z = SVector::<T, N>::from_fn(|i, _| position[i] - q_hat[i]);
+        let velocity = SVector::from_fn(|i, _| {
+            let e = position[i] - desired.position[i];
+            let zeta = desired.velocity[i] - self.lambda_x[i] * e + self.k_d[i] * self.lambda_z[i] * xi[i];
+            zeta + self.k_d[i] * z[i]
+        });
+        VelocityEstimate { velocity, observer_error: z }
+    }
+
+    #[inline]
+    fn derivative(&self, estimate: &VelocityEstimate<T, N>, derivative: &mut [T]) {
+        let (q_hat_rate, xi_rate) = derivative.split_at_mut(N);
+        let z = &estimate.observer_error;
+        for i in 0..N {
+            q_hat_rate[i] = estimate.velocity[i] + self.lambda_z[i] * z[i];
+            xi_rate[i] = z[i];
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The core's tests from outside: reference data, the laws of mechanics, resumption, bad documents. One binary.
+
+mod documents;
+mod laws;
+mod reference;
+mod resumption;

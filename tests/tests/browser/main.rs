@@ -1,0 +1,2 @@
+//! The page in a real Chromium.
+fn main() {}

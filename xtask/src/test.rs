@@ -1,0 +1,114 @@
+//! Every check, in the order that finds mistakes soonest: rules and formatting, lints, then builds and tests.
+//!
+//! The page's module comes before anything that compiles the server, which embeds it.
+
+use std::process::Command;
+
+use anyhow::{Result, bail};
+
+use crate::steps::{Outcome, Steps};
+use crate::workspace::{Workspace, build_server};
+use crate::{DistArgs, Purpose, TestArgs, browser, dist, setup, tidy, tools};
+
+const UNOPTIMISED_TEST: &str = "core/tests/trajectory_hashes.rs";
+
+pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
+    let mut steps = Steps::new();
+    let purpose = if args.no_browser { Purpose::Serve } else { Purpose::Test };
+    let every_check = args.filter.is_none();
+
+    if every_check {
+        steps.run("setup", "cargo xtask setup", || done(setup(workspace, purpose)))?;
+        steps.run("tidy", "cargo xtask tidy", || done(tidy::run(workspace)))?;
+        component(&mut steps, "formatting", "fmt", "rustfmt", &mut formatting(workspace))?;
+    }
+    // Kept when filtering: the tests drive these builds, and a stale server would pass or fail for yesterday's reasons.
+    steps.run("page", "cargo xtask dist", || done(dist::run(workspace, &DistArgs { debug_info: false })))?;
+    if every_check {
+        component(&mut steps, "lints", "clippy", "clippy", &mut lints(workspace))?;
+    }
+    tool(&mut steps, "server", &mut build_server(workspace, "release"))?;
+    tool(&mut steps, "tests", &mut tests(workspace, args))?;
+    if every_check {
+        if workspace.root.join(UNOPTIMISED_TEST).is_file() {
+            tool(&mut steps, "unoptimised bits", &mut unoptimised(workspace))?;
+        } else {
+            let reason = format!("{UNOPTIMISED_TEST} does not exist yet");
+            steps.run("unoptimised bits", "", || Ok(Outcome::Skipped(reason)))?;
+        }
+    }
+    steps.print_table();
+    Ok(())
+}
+
+fn formatting(workspace: &Workspace) -> Command {
+    let mut command = workspace.cargo();
+    command.args(["fmt", "--all", "--check"]);
+    command
+}
+
+fn lints(workspace: &Workspace) -> Command {
+    let mut command = workspace.cargo();
+    command
+        .args(["clippy", "--workspace", "--all-targets", "--all-features", "--locked"])
+        .args(["--", "-D", "warnings"]);
+    command
+}
+
+/// The workspace's tests, told where the server's program is and what they may use.
+fn tests(workspace: &Workspace, args: &TestArgs) -> Command {
+    let mut command = workspace.cargo();
+    command.env("ADAPTARM_BIN", workspace.server_program("release"));
+    if args.soak {
+        command.env("ADAPTARM_SOAK", "1");
+    }
+    if args.no_browser {
+        command.env("ADAPTARM_NO_BROWSER", "1").env_remove("REQUIRE_BROWSER");
+    } else if browser::is_required() {
+        command.env("REQUIRE_BROWSER", "1");
+    }
+    command.args(["test", "--workspace", "--all-features", "--locked"]);
+    if let Some(filter) = &args.filter {
+        command.args(["--", filter]);
+    }
+    command
+}
+
+/// The same trajectories without optimisation anywhere: the bits must not depend on it.
+fn unoptimised(workspace: &Workspace) -> Command {
+    let mut command = workspace.cargo();
+    command.args(["test", "--profile", "unoptimized", "--package", "adaptarm-core"]).args([
+        "--test",
+        "trajectory_hashes",
+        "--locked",
+    ]);
+    command
+}
+
+fn tool(steps: &mut Steps, name: &'static str, command: &mut Command) -> Result<()> {
+    steps.run(name, &tools::describe(command), || done(tools::run_unnamed(command)))
+}
+
+/// A step that needs a part of the toolchain which minimal installations leave out: required on CI, else skipped.
+fn component(
+    steps: &mut Steps,
+    name: &'static str,
+    subcommand: &str,
+    component: &str,
+    command: &mut Command,
+) -> Result<()> {
+    steps.run(name, &tools::describe(command), || {
+        if tools::succeeds(tools::cargo().args([subcommand, "--version"])) {
+            return done(tools::run_unnamed(command));
+        }
+        let missing = format!("`cargo {subcommand}` is not installed; with rustup: rustup component add {component}");
+        if tools::switched_on("CI") {
+            bail!("{missing}");
+        }
+        Ok(Outcome::Skipped(missing))
+    })
+}
+
+fn done(result: Result<()>) -> Result<Outcome> {
+    result.map(|()| Outcome::Done)
+}
