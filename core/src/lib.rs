@@ -11,6 +11,9 @@
 pub mod adaptation;
 pub mod control;
 pub mod dynamics;
+pub mod experiments;
+#[cfg(feature = "figures")]
+pub mod figures;
 pub mod integrators;
 pub mod metrics;
 pub mod recording;

@@ -25,17 +25,17 @@ impl<T: Scalar, const P: usize> Projection<T, P> {
     /// `f_b,i` for estimate θ̂_i that is driven by `drive_i = β w_i + (Yᵀ s)_i`. Source: paper eq. (19), (20).
     #[inline]
     pub fn correction(&self, i: usize, theta_hat: T, drive: T) -> T {
-        let below = self.fraction((self.lower[i] - theta_hat) / self.lower_margin[i]);
-        let above = self.fraction((theta_hat - self.upper[i]) / self.upper_margin[i]);
+        let below = fraction((self.lower[i] - theta_hat) / self.lower_margin[i]);
+        let above = fraction((theta_hat - self.upper[i]) / self.upper_margin[i]);
         (above - below) * self.strength * drive.abs()
     }
+}
 
-    /// δ: how deep into a margin, between 0 and 1.
-    #[inline]
-    fn fraction(&self, depth: T) -> T {
-        let (zero, one) = (T::zero(), T::one());
-        T::select(zero.less_than(depth), T::select(depth.less_than(one), depth, one), zero)
-    }
+/// δ: how deep into a margin, between 0 and 1.
+#[inline]
+fn fraction<T: Scalar>(depth: T) -> T {
+    let (zero, one) = (T::zero(), T::one());
+    T::select(zero.less_than(depth), T::select(depth.less_than(one), depth, one), zero)
 }
 
 #[cfg(test)]

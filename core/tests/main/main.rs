@@ -1,6 +1,8 @@
 //! The core's tests from outside: reference data, the laws of mechanics, resumption, bad documents. One binary.
 
+mod convergence;
 mod documents;
+mod dual;
 mod laws;
 mod reference;
 mod resumption;

@@ -25,8 +25,7 @@ impl Comparison {
         let allowed = self.relative * reference.abs() + 1e-10;
         let excess = (ours - reference).abs() / allowed;
         self.compared += 1;
-        // Written so that NaN counts as the worst.
-        if !(excess <= self.worst) {
+        if excess.is_nan() || excess > self.worst {
             self.worst = excess;
             self.at = format!("{what}: {ours:e} instead of {reference:e}");
         }

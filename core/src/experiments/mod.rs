@@ -1,0 +1,3 @@
+//! Experiments: questions put to several runs at once.
+
+pub mod replication;

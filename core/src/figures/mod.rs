@@ -1,0 +1,14 @@
+//! The study's figures, drawn through any plotters backend: canvas in the browser, SVG and PNG on the server.
+//!
+//! `panels` decides what a figure shows, `draw` how a panel looks, `style` its colours and sizes. One code for all targets.
+
+mod decimate;
+mod draw;
+mod panels;
+mod style;
+mod svg;
+
+pub use draw::{DrawError, draw};
+pub use panels::{Figure, PlottedRun};
+pub use style::{Dash, Rgb, Style, Theme, scheme_style};
+pub use svg::svg;

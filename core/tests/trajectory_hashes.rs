@@ -1,0 +1,19 @@
+//! The bits of the default study: the same in every build and on every target.
+//!
+//! `tests/trajectory_hashes.json` holds the hashes. This test is run optimised and, by `cargo xtask test`, again with the
+//! `unoptimized` profile; the end-to-end tests compare the release binary and the browser with the same file. A change of
+//! any operation in the core changes the hashes: then, and only then, put the new ones in, and say so in the changelog.
+
+use adaptarm_core::scenario::{Scenario, Scheme};
+use serde_json::Value;
+
+#[test]
+fn default_study_has_its_golden_bits() {
+    let golden: Value = serde_json::from_str(include_str!("trajectory_hashes.json")).unwrap();
+    let mut found = serde_json::Map::new();
+    for scheme in Scheme::ALL {
+        let report = Scenario::new(scheme.paper()).unwrap().run().report;
+        found.insert(scheme.id().to_owned(), report.trajectory_hash.into());
+    }
+    assert_eq!(golden, Value::Object(found), "the default study gives other bits than before");
+}
