@@ -23,6 +23,7 @@ pub mod scalar;
 pub mod scenario;
 pub mod simulation;
 pub mod trajectories;
+mod unroll;
 pub mod velocity;
 
 /// Version of this crate, as reports carry it.

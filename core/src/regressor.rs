@@ -2,6 +2,7 @@
 
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
+use crate::unroll::unrolled;
 use nalgebra::SVector;
 
 /// Model torque `Y θ`, N·m. `theta` holds the `P` parameters. Source: paper eq. (2).
@@ -12,9 +13,11 @@ where
     T: Scalar,
 {
     let mut torque = SVector::<T, N>::zeros();
-    for &(i, k) in R::ENTRIES {
+    let theta = &theta[..P];
+    unrolled!(R::ENTRIES.len(), n => {
+        let (i, k) = R::ENTRIES[n];
         torque[i] += y[(i, k)] * theta[k];
-    }
+    });
     torque
 }
 
@@ -26,8 +29,9 @@ where
     T: Scalar,
 {
     let mut gradient = SVector::<T, P>::zeros();
-    for &(i, k) in R::ENTRIES {
+    unrolled!(R::ENTRIES.len(), n => {
+        let (i, k) = R::ENTRIES[n];
         gradient[k] += y[(i, k)] * s[i];
-    }
+    });
     gradient
 }

@@ -7,6 +7,7 @@
 
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
+use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
 
@@ -53,11 +54,12 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         let (x, tau_f) = states.split_at(R::ENTRIES.len());
         let (x_rate, tau_f_rate) = rate.split_at_mut(R::ENTRIES.len());
         let mut filtered = Regressor::<T, N, P>::zeros();
-        for (n, &entry) in R::ENTRIES.iter().enumerate() {
+        unrolled!(R::ENTRIES.len(), n => {
+            let entry = R::ENTRIES[n];
             let direct = self.bandwidth * momentum[entry];
             filtered[entry] = direct + x[n];
             x_rate[n] = self.bandwidth * (balance[entry] - filtered[entry]);
-        }
+        });
         for i in 0..N {
             tau_f_rate[i] = self.bandwidth * (torque[i] - tau_f[i]);
         }

@@ -7,6 +7,7 @@
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
+use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
 
@@ -47,17 +48,19 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         for k in 0..P {
             w_rate[k] = self.gain * correlation[k] - self.forgetting * w[k];
         }
-        let scaled = filtered * self.gain;
-        for (n, &(i, j)) in R::PAIRS.iter().enumerate() {
-            let mut product = scaled[(0, i)] * filtered[(0, j)];
-            for row in 1..N {
-                product += scaled[(row, i)] * filtered[(row, j)];
+        unrolled!(R::PAIRS.len(), n => {
+            let (i, j) = R::PAIRS[n];
+            let mut product = T::zero();
+            for row in 0..N {
+                if R::LIVE[row][i] && R::LIVE[row][j] {
+                    product += filtered[(row, i)] * filtered[(row, j)];
+                }
             }
-            z_rate[n] = product - self.forgetting * z[n];
+            z_rate[n] = self.gain * product - self.forgetting * z[n];
             w_rate[i] += z[n] * theta_hat_rate[j];
             if i != j {
                 w_rate[j] += z[n] * theta_hat_rate[i];
             }
-        }
+        });
     }
 }

@@ -15,7 +15,7 @@ use crate::recording::Columns;
 use crate::robots::{Robot, RobotData};
 use crate::scalar::Scalar;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
-use crate::trajectories::Fourier;
+use crate::trajectories::{Fourier, Remembered};
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
 
@@ -118,7 +118,7 @@ where
         SVector::<T, P>::from_fn(|k, _| T::splat(R::DATA.parameters[k].value * scale.map_or(1.0, |scale| scale[k])));
     Box::new(ClosedLoop::<R, V, A, T, N, P> {
         plant: Plant::new(theta, FrictionSign::from_width(width_rad_s)),
-        trajectory: trajectory(&document.trajectory),
+        trajectory: Remembered::new(trajectory(&document.trajectory)),
         velocity_source,
         feedback,
         adaptation,

@@ -10,7 +10,7 @@ use crate::dynamics::Plant;
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
-use crate::trajectories::{Desired, Fourier};
+use crate::trajectories::{Desired, Remembered};
 use crate::velocity::{VelocityEstimate, VelocitySource};
 use nalgebra::SVector;
 
@@ -25,11 +25,11 @@ pub enum InitialVelocity {
 
 /// A robot under adaptive control; `V` the velocity source, `A` the adaptation law.
 #[derive(Debug, Clone)]
-pub struct ClosedLoop<R, V, A, T, const N: usize, const P: usize> {
+pub struct ClosedLoop<R, V, A, T: Scalar, const N: usize, const P: usize> {
     /// The arm.
     pub plant: Plant<R, T, N, P>,
     /// Where it should go.
-    pub trajectory: Fourier<T, N>,
+    pub trajectory: Remembered<T, N>,
     /// First choice: where the velocity comes from.
     pub velocity_source: V,
     /// Second choice: how torque follows from errors.

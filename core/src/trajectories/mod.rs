@@ -1,8 +1,10 @@
 //! Desired trajectories: where the joints should be, how fast, and with what acceleration.
 
 mod fourier;
+mod remembered;
 
 pub use fourier::Fourier;
+pub use remembered::Remembered;
 
 use nalgebra::SVector;
 

@@ -5,4 +5,5 @@ mod documents;
 mod dual;
 mod laws;
 mod reference;
+mod replication;
 mod resumption;

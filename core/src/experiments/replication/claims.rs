@@ -45,10 +45,13 @@ const CONSTANT: f64 = 0.05;
 pub fn check_claims(runs: &[Run; 3]) -> Vec<Claim> {
     vec![
         bounded(runs),
+        slotine_li_converges(runs),
+        errors_look_alike(runs),
         slotine_li_worst_tracking(runs),
         similar_to_tang_arteaga(runs),
         slotine_li_settles_last(runs),
         third_joint_velocity_stays(runs),
+        observer_replaces_the_sensor(runs),
         observer_peaks(runs),
         estimates_become_constant(runs),
         closest_estimates(runs),
@@ -93,6 +96,50 @@ fn bounded(runs: &[Run; 3]) -> Claim {
         "the run completes, and for every joint the index of e and of z over the second half is at most that over the first",
         completed && e.iter().chain(&z).all(|ratio| *ratio <= 1.0),
         format!("second half / first half: e {}; z {}", three(&e, 3), three(&z, 3)),
+    )
+}
+
+fn slotine_li_converges(runs: &[Run; 3]) -> Claim {
+    let run = of(runs, Scheme::SlotineLi);
+    let index = |joint, from, to| window_index(run, Signal::Error, joint, from, to);
+    let ratios: Vec<_> = (0..3).map(|joint| index(joint, 0.5, 1.0) / index(joint, 0.0, 0.5)).collect();
+    claim(
+        "slotine_li_converges",
+        "Slotine and Li's tracking errors tend to zero.",
+        "the run completes, and for every joint I(e) over the second half is smaller than over the first",
+        run.report.outcome == OutcomeKind::Completed && ratios.iter().all(|ratio| *ratio < 1.0),
+        format!("second half / first half: {}", three(&ratios, 3)),
+    )
+}
+
+fn errors_look_alike(runs: &[Run; 3]) -> Claim {
+    let spread: Vec<_> = (0..3)
+        .map(|joint| {
+            let indices = Scheme::ALL.map(|scheme| of(runs, scheme).report.metrics.index_e_deg[joint]);
+            indices.iter().fold(0.0_f64, |a, b| a.max(*b)) / indices.iter().fold(f64::INFINITY, |a, b| a.min(*b))
+        })
+        .collect();
+    claim(
+        "errors_look_alike",
+        "The joint errors of the three controllers behave very much alike.",
+        "for every joint the largest I(e) is within a factor of 2 of the smallest",
+        spread.iter().all(|ratio| *ratio <= SIMILAR),
+        format!("largest / smallest: {}", three(&spread, 1)),
+    )
+}
+
+fn observer_replaces_the_sensor(runs: &[Run; 3]) -> Claim {
+    let index = |scheme| &of(runs, scheme).report.metrics.index_de_deg_s;
+    let good = (0..3).all(|joint| {
+        let own = index(Scheme::Proposed)[joint];
+        own <= SIMILAR * index(Scheme::TangArteaga)[joint] && own < index(Scheme::SlotineLi)[joint]
+    });
+    claim(
+        "observer_replaces_the_sensor",
+        "The velocity errors confirm that the observer stands in well for a velocity sensor.",
+        "for every joint I(ė) of the proposed scheme is at most twice Tang and Arteaga's and below Slotine and Li's",
+        good,
+        format!("I(ė) in °/s: {}", listing(|scheme| three(index(scheme), 4))),
     )
 }
 

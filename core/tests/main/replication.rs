@@ -1,0 +1,67 @@
+//! The replication's verdicts: those of the default study, and that each criterion can come out the other way.
+
+use adaptarm_core::experiments::replication::{Verdict, check_claims, study, table_1, table_2};
+use adaptarm_core::scenario::{Run, ScenarioDocument};
+
+fn runs(adjust: impl Fn(&mut ScenarioDocument)) -> [Run; 3] {
+    let runs: Vec<_> = study(adjust).unwrap().iter().map(adaptarm_core::scenario::Scenario::run).collect();
+    runs.try_into().unwrap()
+}
+
+fn holding(runs: &[Run; 3]) -> Vec<&'static str> {
+    let claims = check_claims(runs);
+    claims.iter().filter(|claim| claim.verdict == Verdict::Holds).map(|claim| claim.id).collect()
+}
+
+#[test]
+fn verdicts_on_the_default_study() {
+    assert_eq!(
+        holding(&runs(|_| {})),
+        [
+            "ultimately_bounded",
+            "slotine_li_worst",
+            "slotine_li_settles_last",
+            "third_joint_velocity_stays",
+            "observer_peaks"
+        ]
+    );
+}
+
+/// What decides is what ran: the same three runs under other names turn verdicts round.
+#[test]
+fn verdicts_follow_the_runs() {
+    let [proposed, tang_arteaga, slotine_li] = runs(|_| {});
+    let renamed = [slotine_li, tang_arteaga, proposed];
+    let holding = holding(&renamed);
+    assert!(!holding.contains(&"slotine_li_worst"));
+    assert!(!holding.contains(&"slotine_li_settles_last"));
+    assert!(!holding.contains(&"third_joint_velocity_stays"));
+    assert!(!holding.contains(&"observer_peaks"), "what it calls an observer error is the distance travelled");
+}
+
+/// With time the parameters converge, the errors shrink, and more of the paper's story holds.
+#[test]
+fn long_runs_converge() {
+    let long = runs(|document| document.integration.duration_s = 300.0);
+    let holding = holding(&long);
+    assert!(holding.contains(&"slotine_li_converges"), "{holding:?}");
+    assert!(holding.contains(&"observer_replaces_the_sensor"), "{holding:?}");
+}
+
+#[test]
+fn tables_divide_ours_by_the_papers() {
+    let runs = runs(|_| {});
+    for table in [table_1(&runs), table_2(&runs)] {
+        for ((id, _, entries), run) in table.rows.iter().zip(&runs) {
+            assert_eq!(*id, run.report.scheme);
+            let metrics = &run.report.metrics;
+            let index = if table.number == 1 { &metrics.index_e_deg } else { &metrics.index_de_deg_s };
+            for (entry, ours) in entries.iter().zip(index.iter().copied()) {
+                assert_eq!(entry.ours, ours);
+                assert_eq!(entry.ratio, ours / entry.paper);
+            }
+        }
+    }
+    assert_eq!(table_1(&runs).rows[2].2[1].paper, 0.018);
+    assert_eq!(table_2(&runs).rows[0].2[2].paper, 0.0023);
+}
