@@ -4,6 +4,7 @@
 
 mod closed_loop;
 mod outcome;
+mod recorder;
 mod run;
 mod snapshot;
 

@@ -1,19 +1,17 @@
 //! Advancing a run: steps, samples at their exact times, divergence, pause and resume.
 
+use super::recorder::Recorder;
 use super::{Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, TRACKING_ERROR_LIMIT_RAD};
 use crate::integrators::{Dopri5, Rk4};
 use crate::recording::Recording;
 
 /// The integrator of a run, with its work space.
 enum Stepper {
-    Rk4 {
-        rk4: Rk4<f64>,
-        /// Steps per sample, where samples fall on step starts.
-        steps_per_sample: Option<u64>,
-        /// State before the step and the slopes at both ends, for samples inside a step.
-        before: Vec<f64>,
-        slopes: [Vec<f64>; 2],
-    },
+    /// Every sample falls on the start of a step: `every` steps from one to the next.
+    Rk4OnGrid { rk4: Rk4<f64>, every: u64 },
+    /// Samples fall inside steps: the state before the step and the slopes at its ends serve to interpolate.
+    Rk4 { rk4: Rk4<f64>, before: Vec<f64>, slopes: [Vec<f64>; 2] },
+    /// The integrator interpolates.
     Dopri5(Box<Dopri5>),
 }
 
@@ -24,13 +22,12 @@ pub struct Simulation {
     settings: Settings,
     stepper: Stepper,
     state: Vec<f64>,
-    /// State between steps and tracking error: scratch.
-    sample: Vec<f64>,
+    /// Work space for the tracking error.
     error: Vec<f64>,
     step: u64,
     time_s: f64,
     evaluations: u64,
-    recording: Recording,
+    recorder: Recorder,
     outcome: Option<Outcome>,
 }
 
@@ -39,11 +36,13 @@ impl Simulation {
     pub fn new(identity: String, system: Box<dyn StateSpace<f64>>, settings: Settings) -> Self {
         let len = system.len();
         let stepper = match settings.method {
-            Method::Rk4 => Stepper::Rk4 {
-                rk4: Rk4::new(len),
-                steps_per_sample: settings.steps_per_sample(),
-                before: vec![0.0; len],
-                slopes: [vec![0.0; len], vec![0.0; len]],
+            Method::Rk4 => match settings.steps_per_sample() {
+                Some(every) => Stepper::Rk4OnGrid { rk4: Rk4::new(len), every },
+                None => Stepper::Rk4 {
+                    rk4: Rk4::new(len),
+                    before: vec![0.0; len],
+                    slopes: [vec![0.0; len], vec![0.0; len]],
+                },
             },
             Method::Dopri5(tolerances) => {
                 Stepper::Dopri5(Box::new(Dopri5::new(len, tolerances, settings.step_s.min(settings.duration_s))))
@@ -57,12 +56,11 @@ impl Simulation {
             settings,
             stepper,
             state,
-            sample: vec![0.0; len],
             error: vec![0.0; settings.columns.joints],
             step: 0,
             time_s: 0.0,
             evaluations: 0,
-            recording: Recording::with_capacity(settings.columns, settings.samples + 1),
+            recorder: Recorder::new(settings, len),
             outcome: None,
         }
     }
@@ -90,7 +88,7 @@ impl Simulation {
         run.time_s = snapshot.time_s;
         run.evaluations = snapshot.evaluations;
         run.state = snapshot.state;
-        run.recording = Recording::from_rows(settings.columns, snapshot.rows);
+        run.recorder.recording = Recording::from_rows(settings.columns, snapshot.rows);
         run.outcome = snapshot.outcome;
         if let Stepper::Dopri5(dopri5) = &mut run.stepper {
             dopri5.step_s = snapshot.next_step_s;
@@ -105,12 +103,12 @@ impl Simulation {
             step: self.step,
             time_s: self.time_s,
             next_step_s: match &self.stepper {
-                Stepper::Rk4 { .. } => self.settings.step_s,
+                Stepper::Rk4OnGrid { .. } | Stepper::Rk4 { .. } => self.settings.step_s,
                 Stepper::Dopri5(dopri5) => dopri5.step_s,
             },
             evaluations: self.evaluations,
             state: self.state.clone(),
-            rows: self.recording.rows().to_vec(),
+            rows: self.recorder.recording.rows().to_vec(),
             outcome: self.outcome,
         }
     }
@@ -167,100 +165,67 @@ impl Simulation {
 
     /// What has been recorded.
     pub fn recording(&self) -> &Recording {
-        &self.recording
+        &self.recorder.recording
     }
 
     /// Gives the recording away.
     pub fn into_recording(self) -> Recording {
-        self.recording
+        self.recorder.recording
     }
 
     /// One step, its samples, and the check that it led somewhere sensible.
     fn take_step(&mut self) -> Result<(), Divergence> {
-        let start_s = self.time_s;
-        let end_s = match &mut self.stepper {
-            Stepper::Rk4 { rk4, steps_per_sample, before, slopes } => {
+        let (start_s, duration_s) = (self.time_s, self.settings.duration_s);
+        let Self { system, stepper, state, recorder, evaluations, .. } = self;
+        let system = &**system;
+        let rhs = |t: f64, x: &[f64], rate: &mut [f64]| system.derivative(t, x, rate);
+        let end_s = match stepper {
+            Stepper::Rk4OnGrid { rk4, every } => {
                 let end_s = self.settings.step_time_s(self.step + 1);
-                if let Some(every) = *steps_per_sample {
-                    if self.step.is_multiple_of(every) {
-                        record(&*self.system, &mut self.recording, &self.settings, start_s, &self.state)?;
-                    }
-                } else {
-                    before.copy_from_slice(&self.state);
+                if self.step.is_multiple_of(*every) {
+                    recorder.record(system, start_s, state)?;
                 }
-                rk4.step(start_s, end_s, &mut self.state, |t, x, rate| self.system.derivative(t, x, rate));
-                self.evaluations += 4;
-                let inside = steps_per_sample.is_none() && self.recording.len() < self.settings.samples;
-                if inside && self.settings.sample_time_s(self.recording.len()) < end_s {
-                    check(&*self.system, end_s, &self.state, &mut self.error).inspect_err(|_| self.time_s = end_s)?;
-                    self.system.derivative(start_s, before, &mut slopes[0]);
-                    self.system.derivative(end_s, &self.state, &mut slopes[1]);
-                    self.evaluations += 2;
-                    record_inside(
-                        &*self.system,
-                        &mut self.recording,
-                        &self.settings,
-                        end_s,
-                        &mut self.sample,
-                        |t, x| hermite(t, start_s, end_s, [before, &self.state], slopes, x),
-                    )?;
+                rk4.step(start_s, end_s, state, rhs);
+                *evaluations += 4;
+                end_s
+            }
+            Stepper::Rk4 { rk4, before, slopes } => {
+                let end_s = self.settings.step_time_s(self.step + 1);
+                before.copy_from_slice(state);
+                rk4.step(start_s, end_s, state, rhs);
+                *evaluations += 4;
+                if recorder.is_due_before(end_s) {
+                    rhs(start_s, before, &mut slopes[0]);
+                    rhs(end_s, state, &mut slopes[1]);
+                    *evaluations += 2;
+                    recorder.record_before(system, end_s, |t, x| {
+                        hermite((t - start_s) / (end_s - start_s), end_s - start_s, [before, state], slopes, x);
+                    })?;
                 }
                 end_s
             }
             Stepper::Dopri5(dopri5) => {
-                let evaluations = &mut self.evaluations;
-                let end_s = dopri5
-                    .step(start_s, self.settings.duration_s, &mut self.state, |t, x, rate| {
-                        *evaluations += 1;
-                        self.system.derivative(t, x, rate);
-                    })
-                    .map_err(|_| Divergence::StepTooSmall)?;
-                record_inside(&*self.system, &mut self.recording, &self.settings, end_s, &mut self.sample, |t, x| {
-                    dopri5.interpolate(t, &self.state, x);
-                })?;
+                let counted = |t: f64, x: &[f64], rate: &mut [f64]| {
+                    *evaluations += 1;
+                    rhs(t, x, rate);
+                };
+                let reached = dopri5.step(start_s, duration_s, state, counted);
+                let end_s = reached.map_err(|_| Divergence::StepTooSmall)?;
+                recorder.record_before(system, end_s, |t, x| dopri5.interpolate(t, state, x))?;
                 end_s
             }
         };
         self.step += 1;
         self.time_s = end_s;
-        check(&*self.system, end_s, &self.state, &mut self.error)?;
-        if end_s >= self.settings.duration_s {
-            if !self.state.iter().all(|x| x.is_finite()) {
+        check(system, end_s, state, &mut self.error)?;
+        if end_s >= duration_s {
+            if !state.iter().all(|x| x.is_finite()) {
                 return Err(Divergence::NotFinite);
             }
-            record(&*self.system, &mut self.recording, &self.settings, end_s, &self.state)?;
+            recorder.record(system, end_s, state)?;
         }
         Ok(())
     }
-}
-
-/// Records the next sample from the state at `time_s`.
-fn record(
-    system: &dyn StateSpace<f64>,
-    recording: &mut Recording,
-    settings: &Settings,
-    time_s: f64,
-    x: &[f64],
-) -> Result<(), Divergence> {
-    let label_s = settings.sample_time_s(recording.len());
-    recording.push(label_s, |row| system.observe(time_s, x, row)).map_err(|_| Divergence::NotFinite)
-}
-
-/// Records every sample before `end_s` that is still missing; `state_at` gives the state inside the step.
-fn record_inside(
-    system: &dyn StateSpace<f64>,
-    recording: &mut Recording,
-    settings: &Settings,
-    end_s: f64,
-    sample: &mut [f64],
-    mut state_at: impl FnMut(f64, &mut [f64]),
-) -> Result<(), Divergence> {
-    while recording.len() < settings.samples && settings.sample_time_s(recording.len()) < end_s {
-        let time_s = settings.sample_time_s(recording.len());
-        state_at(time_s, sample);
-        record(system, recording, settings, time_s, sample)?;
-    }
-    Ok(())
 }
 
 /// Whether the run is still near its trajectory. A NaN anywhere reaches the joint angles within a step, so they are enough.
@@ -277,10 +242,8 @@ fn check(system: &dyn StateSpace<f64>, time_s: f64, x: &[f64], error: &mut [f64]
     Ok(())
 }
 
-/// Cubic Hermite interpolation between the ends of a step.
-fn hermite(time_s: f64, start_s: f64, end_s: f64, ends: [&[f64]; 2], slopes: &[Vec<f64>; 2], out: &mut [f64]) {
-    let h = end_s - start_s;
-    let s = (time_s - start_s) / h;
+/// Cubic Hermite interpolation at the fraction `s` of a step of length `h`, between its ends.
+fn hermite(s: f64, h: f64, ends: [&[f64]; 2], slopes: &[Vec<f64>; 2], out: &mut [f64]) {
     let r = 1.0 - s;
     for (n, out) in out.iter_mut().enumerate() {
         let (x0, x1) = (ends[0][n], ends[1][n]);
