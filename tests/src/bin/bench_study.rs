@@ -10,7 +10,8 @@ use std::time::Instant;
 const ROUNDS: usize = 15;
 
 fn main() -> Result<()> {
-    let scenarios = Scheme::ALL.into_iter().map(|scheme| Scenario::new(scheme.paper())).collect::<Result<Vec<_>, _>>()?;
+    let scenarios =
+        Scheme::ALL.into_iter().map(|scheme| Scenario::new(scheme.paper())).collect::<Result<Vec<_>, _>>()?;
     let mut times_ms = vec![Vec::with_capacity(ROUNDS); scenarios.len() + 1];
     // One round more than counted: the first warms caches and clocks.
     for round in 0..=ROUNDS {

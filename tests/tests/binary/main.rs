@@ -1,1 +1,6 @@
 //! The binary from outside: command line and HTTP.
+
+mod bad_scenarios;
+mod replicate;
+mod run;
+mod serve;

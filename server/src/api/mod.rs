@@ -1,0 +1,69 @@
+//! What goes over the wire: requests and answers as types, and how a request's body becomes one.
+
+pub mod catalog;
+pub mod jobs;
+
+use crate::config::DOCUMENT_BYTES;
+use crate::document;
+use crate::error::Problem;
+use axum::body::{Body, Bytes};
+use axum::extract::{FromRequest, Request};
+use axum::http::{HeaderMap, StatusCode, header};
+use http_body_util::{BodyExt, LengthLimitError, Limited};
+use serde::de::DeserializeOwned;
+use std::time::Duration;
+use tokio::time::timeout;
+
+/// How long a body that is too large is read and thrown away, so that its sender comes to read the answer.
+const DISCARD_TIME: Duration = Duration::from_secs(5);
+
+/// A JSON body; every way in which it can be wrong has its own answer.
+#[derive(Debug, Clone, Copy)]
+pub struct Json<T>(pub T);
+
+impl<T: DeserializeOwned, S: Sync> FromRequest<S> for Json<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, _: &S) -> Result<Self, Problem> {
+        let (parts, body) = request.into_parts();
+        if !is_json(&parts.headers) {
+            return Err(Problem::new(
+                StatusCode::UNSUPPORTED_MEDIA_TYPE,
+                "/problems/media-type",
+                "Not declared as JSON",
+                "send the header `Content-Type: application/json`",
+            ));
+        }
+        let bytes = read_body(&parts.headers, body).await?;
+        Ok(Self(document::parse(&bytes)?))
+    }
+}
+
+/// Whether the body is declared as JSON, which no other site's page can do without asking first.
+fn is_json(headers: &HeaderMap) -> bool {
+    let value = headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    let media_type = value.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
+    media_type == "application/json" || (media_type.starts_with("application/") && media_type.ends_with("+json"))
+}
+
+/// The whole body, if it is not too large.
+async fn read_body(headers: &HeaderMap, mut body: Body) -> Result<Bytes, Problem> {
+    let declared = headers.get(header::CONTENT_LENGTH).and_then(|value| value.to_str().ok()?.parse::<u64>().ok());
+    if declared.is_none_or(|length| length <= DOCUMENT_BYTES as u64) {
+        match Limited::new(&mut body, DOCUMENT_BYTES).collect().await {
+            Ok(collected) => return Ok(collected.to_bytes()),
+            Err(error) if error.is::<LengthLimitError>() => {}
+            Err(error) => return Err(Problem::status(StatusCode::BAD_REQUEST, format!("the body broke off: {error}"))),
+        }
+    }
+    // Whoever waits for a go-ahead has sent nothing yet, and now will not.
+    if !headers.contains_key(header::EXPECT) {
+        let discard = async { while let Some(Ok(_)) = body.frame().await {} };
+        // In time or not, the answer is the same.
+        let _ = timeout(DISCARD_TIME, discard).await;
+    }
+    let size = declared.map_or_else(String::new, |length| format!("{length} bytes are too many: "));
+    let detail = format!("{size}a body may have {DOCUMENT_BYTES} bytes (1 MiB)");
+    Err(Problem::new(StatusCode::PAYLOAD_TOO_LARGE, "/problems/too-large", "Body too large", detail)
+        .with("max_bytes", DOCUMENT_BYTES))
+}

@@ -1,0 +1,109 @@
+//! The command line: what can be asked, and what the exit code says about the answer.
+
+mod presets;
+mod run;
+mod serve;
+
+use crate::document::brief;
+use crate::replicate::{BadSettings, ReplicateArgs, replicate};
+use clap::{Parser, Subcommand};
+use std::fmt::Display;
+use std::io;
+use std::process::ExitCode;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done; a simulation that diverged is done too: its report says so
+  1  something could not be read, written or bound
+  2  the input or the arguments are wrong";
+
+const EXAMPLES: &str = "\
+Examples:
+  adaptarm run --preset proposed            the paper's scheme: a report as JSON
+  adaptarm presets --show proposed > my.json    a scenario to start from
+  adaptarm run my.json --csv my.csv         its report, and its samples as a table
+  adaptarm replicate                        the published study, regenerated
+  adaptarm serve                            the laboratory at http://127.0.0.1:8080";
+
+/// Adaptive control of robot arms: simulate, compare, explore.
+#[derive(Debug, Parser)]
+#[command(name = "adaptarm", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"), arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Simulate one scenario and print the report on it.
+    Run(run::Arguments),
+    /// List the scenarios that have a name, or print one.
+    Presets(presets::Arguments),
+    /// Regenerate the published study: tables, claims, figures and a report in a folder.
+    Replicate(ReplicateArgs),
+    /// Serve the laboratory's page and its HTTP API.
+    Serve(serve::Arguments),
+}
+
+/// Runs the program.
+pub fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Presets(arguments) => presets::run(&arguments),
+        Command::Replicate(arguments) => replicate(&arguments).map_err(|error| {
+            // The whole chain of causes on one line.
+            let message = format!("{error:#}");
+            if error.is::<BadSettings>() { Failure::input(message) } else { Failure::system(message) }
+        }),
+        Command::Serve(arguments) => serve::run(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("adaptarm: {}", brief(&failure.message));
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Why a command did not do what it was asked: one line, and an exit code.
+#[derive(Debug)]
+pub struct Failure {
+    code: u8,
+    message: String,
+}
+
+impl Failure {
+    /// The world did not cooperate.
+    pub fn system(message: impl Display) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
+    /// What was asked makes no sense.
+    pub fn input(message: impl Display) -> Self {
+        Self { code: 2, message: message.to_string() }
+    }
+}
+
+/// Prints to standard output; nobody reading it any more is no failure.
+pub fn print(text: &str) -> Result<(), Failure> {
+    use io::Write;
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::system(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+}

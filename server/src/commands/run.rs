@@ -1,0 +1,133 @@
+//! `adaptarm run`: one scenario in, one report out.
+
+use super::{Failure, presets, print};
+use crate::document::{FileError, parse_scenario, read_bounded, read_file};
+use adaptarm_core::scenario::{Run, Scenario};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Steps between two looks at the clock: some milliseconds.
+const SLICE_STEPS: u64 = 5_000;
+
+/// Runs shorter than this need no progress bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  adaptarm run --preset slotine_li
+  adaptarm run my.json --csv my.csv --compact >> reports.jsonl
+  adaptarm presets --show proposed | sed 's/\"duration_s\": 12.0/\"duration_s\": 60.0/' | adaptarm run -
+
+A scenario may be as short as {\"format\": \"adaptarm.scenario/1\", \"scheme\": {\"kind\": \"proposed\"}}:
+whatever it leaves out is as in the paper.
+
+Exit codes:
+  0  simulated to the end, or until it diverged: the report's `outcome` tells which
+  1  the scenario could not be read, or the result not written
+  2  the scenario is wrong; one line on standard error says where and what would be allowed")]
+pub(super) struct Arguments {
+    /// Scenario file (JSON), or - for standard input.
+    #[arg(value_name = "SCENARIO.json")]
+    scenario: Option<PathBuf>,
+    /// Run the preset of this name instead; `adaptarm presets` lists them.
+    #[arg(long, value_name = "NAME", conflicts_with = "scenario")]
+    preset: Option<String>,
+    /// Also write every sample to this file, as comma-separated values.
+    #[arg(long, value_name = "OUT.csv")]
+    csv: Option<PathBuf>,
+    /// Print the report on one line.
+    #[arg(long)]
+    compact: bool,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scenario = match (&arguments.preset, &arguments.scenario) {
+        (Some(name), _) => presets::scenario(name)?,
+        (None, Some(path)) => read(path)?,
+        (None, None) => {
+            let message = "run what? Name a scenario file (- for standard input) or a preset (--preset proposed)";
+            return Err(Failure::input(message));
+        }
+    };
+    let table = arguments.csv.as_deref().map(|path| Table::open(path, arguments.scenario.as_deref())).transpose()?;
+    let Run { report, recording } = simulate(&scenario);
+    if let Some(table) = table {
+        table.write(&recording.to_csv())?;
+    }
+    let text = if arguments.compact { serde_json::to_string(&report) } else { serde_json::to_string_pretty(&report) };
+    print(&(text.map_err(Failure::system)? + "\n"))
+}
+
+fn read(path: &Path) -> Result<Scenario, Failure> {
+    let (name, bytes) = if path.as_os_str() == "-" {
+        ("standard input".to_owned(), read_bounded(io::stdin().lock()))
+    } else {
+        (path.display().to_string(), read_file(path))
+    };
+    let bytes = bytes.map_err(|error| match error {
+        FileError::Unreadable(_) => Failure::system(format!("{name}: {error}")),
+        FileError::Folder | FileError::TooLarge(_) | FileError::Endless => Failure::input(format!("{name}: {error}")),
+    })?;
+    parse_scenario(&bytes).map_err(|error| Failure::input(format!("{name}: {error}")))
+}
+
+/// Simulates, and shows how far it came to whoever is watching.
+fn simulate(scenario: &Scenario) -> Run {
+    let started = Instant::now();
+    let mut bar: Option<ProgressBar> = None;
+    let mut simulation = scenario.start();
+    while !simulation.advance(SLICE_STEPS) {
+        if started.elapsed() > PATIENCE {
+            // Draws on standard error, and only if that is a terminal.
+            let bar = bar.get_or_insert_with(|| progress_bar(scenario.settings().duration_s));
+            bar.set_position((simulation.progress() * 1000.0) as u64);
+        }
+    }
+    if let Some(bar) = bar {
+        bar.finish_and_clear();
+    }
+    scenario.finish(simulation)
+}
+
+fn progress_bar(duration_s: f64) -> ProgressBar {
+    let bar = ProgressBar::new(1000);
+    let template = "simulating {msg} [{bar:30}] {percent:>3} %, {eta} left";
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    bar.with_style(style.progress_chars("=> ")).with_message(format!("{duration_s} s"))
+}
+
+/// A table to be written: opened before the simulation, so that hours of it are not lost to a misspelt folder.
+struct Table<'a> {
+    path: &'a Path,
+    file: File,
+}
+
+impl<'a> Table<'a> {
+    fn open(path: &'a Path, scenario: Option<&Path>) -> Result<Self, Failure> {
+        let same = |other: &Path| path.canonicalize().ok().is_some_and(|path| other.canonicalize().ok() == Some(path));
+        if scenario.is_some_and(same) {
+            return Err(Failure::input(format!("{}: the table would replace the scenario", path.display())));
+        }
+        // What is there stays there until something can take its place.
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+        Ok(Self { path, file: file.map_err(|error| Self::failure(path, &error))? })
+    }
+
+    fn write(mut self, csv: &str) -> Result<(), Failure> {
+        // A pipe or a device has no length to take away.
+        let emptied = if self.file.metadata().is_ok_and(|data| data.is_file()) { self.file.set_len(0) } else { Ok(()) };
+        emptied
+            .and_then(|()| self.file.write_all(csv.as_bytes()))
+            .and_then(|()| self.file.flush())
+            .map_err(|error| Self::failure(self.path, &error))
+    }
+
+    fn failure(path: &Path, error: &io::Error) -> Failure {
+        Failure::system(format!("{}: cannot write it: {error}", path.display()))
+    }
+}

@@ -1,0 +1,46 @@
+//! Handlers: they translate between HTTP and the rest, and nothing more.
+
+mod catalog;
+mod health;
+mod jobs;
+
+use crate::error::Problem;
+use crate::state::AppState;
+use axum::Router;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::routing::{get, post};
+use tower_http::compression::CompressionLayer;
+
+/// Everything below `/api/v1`.
+pub fn api() -> Router<AppState> {
+    Router::new()
+        .route("/", get(catalog::index))
+        .route("/presets", get(catalog::presets))
+        .route("/presets/{id}", get(catalog::preset))
+        .route("/robots", get(catalog::robots))
+        .route("/schemes", get(catalog::schemes))
+        .route("/schema/scenario", get(catalog::scenario_schema))
+        .route("/limits", get(catalog::limits))
+        .route("/jobs", post(jobs::submit))
+        .route("/jobs/{id}", get(jobs::show))
+        .route("/jobs/{id}/cancel", post(jobs::cancel))
+        .route("/jobs/{id}/result", get(jobs::result))
+        .route("/jobs/{id}/result/series", get(jobs::series))
+        .layer(axum::middleware::map_response(|mut response: axum::response::Response| async {
+            // A job's state changes between two looks at it.
+            response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+            response
+        }))
+        .layer(CompressionLayer::new())
+}
+
+/// What watches over servers asks at the top level.
+pub fn health() -> Router<AppState> {
+    Router::new().route("/healthz", get(health::alive)).route("/readyz", get(health::ready))
+}
+
+/// Our own constants cannot be wrong; if one is, that is our failure.
+fn internal(error: impl std::fmt::Display) -> Problem {
+    tracing::error!("{error}");
+    Problem::status(StatusCode::INTERNAL_SERVER_ERROR, "the server failed; its log names this request")
+}

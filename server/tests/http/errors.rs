@@ -1,0 +1,141 @@
+//! Each way in which a request can be wrong has its own answer, and each answer is a problem document.
+
+use crate::support::{App, request, short, study};
+use axum::body::Body;
+use serde_json::{Value, json};
+
+const JOBS: &str = "/api/v1/jobs";
+
+/// What comes back for a study of one scenario in which `pointer` has been set to `value`.
+async fn with_field(parent: &str, field: &str, value: Value) -> crate::support::Answer {
+    let mut scenario = short("proposed");
+    scenario.pointer_mut(parent).unwrap()[field] = value;
+    App::new().post(JOBS, study(&[scenario]).to_string()).await
+}
+
+#[tokio::test]
+async fn unknown_paths() {
+    let app = App::new();
+    for path in ["/api/v1/nothing", "/api", "/api/v2/jobs", "/nothing.html", "/api/v1/", "/%ff/..%2f"] {
+        app.get(path).await.problem(404, "/problems/http");
+    }
+    let problem = app.get("/api/v1/presets/nonsense").await.problem(404, "/problems/http");
+    assert_eq!(problem["detail"], r#"there is no preset "nonsense""#);
+}
+
+#[tokio::test]
+async fn wrong_method() {
+    let app = App::new();
+    let answer = app.get(JOBS).await;
+    answer.problem(405, "/problems/http");
+    assert_eq!(answer.header("allow"), "POST");
+    let answer = app.post("/api/v1/presets", "{}").await;
+    answer.problem(405, "/problems/http");
+    assert_eq!(answer.header("allow"), "GET,HEAD");
+}
+
+#[tokio::test]
+async fn not_declared_as_json() {
+    let body = study(&[short("proposed")]).to_string();
+    for media_type in ["text/plain", "application/x-www-form-urlencoded", "", "application/jsonp", "json"] {
+        let request = request("POST", JOBS).header("content-type", media_type).body(Body::from(body.clone())).unwrap();
+        App::new().call(request).await.problem(415, "/problems/media-type");
+    }
+    let bare = request("POST", JOBS).body(Body::from(body.clone())).unwrap();
+    App::new().call(bare).await.problem(415, "/problems/media-type");
+    let charset = request("POST", JOBS).header("content-type", "Application/JSON; charset=utf-8");
+    assert_eq!(App::new().call(charset.body(Body::from(body)).unwrap()).await.status, 202);
+}
+
+#[tokio::test]
+async fn not_json() {
+    let app = App::new();
+    let problem = app.post(JOBS, "{\n  \"kind\": study\n}").await.problem(400, "/problems/malformed-json");
+    assert_eq!((&problem["line"], &problem["column"]), (&json!(2), &json!(11)));
+    assert_eq!(problem["pointer"], "/kind");
+    for body in ["", " ", "hello", "{", "\u{0}"] {
+        app.post(JOBS, body).await.problem(400, "/problems/malformed-json");
+    }
+    app.post(JOBS, &b"{\"kind\": \"\xff\"}"[..]).await.problem(400, "/problems/malformed-json");
+    let nan = study(&[short("proposed")]).to_string().replace("0.5", "NaN");
+    let problem = app.post(JOBS, nan).await.problem(400, "/problems/malformed-json");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/integration/duration_s");
+}
+
+#[tokio::test]
+async fn deep_nesting_is_refused_without_harm() {
+    let app = App::new();
+    for body in ["[".repeat(30_000), "{\"kind\":".repeat(30_000)] {
+        app.post(JOBS, body).await.problem(422, "/problems/malformed");
+    }
+    // A trajectory is read as a whole before its kind is known.
+    let deep = study(&[short("proposed")]).to_string().replace("\"format\"", "\"trajectory\":TRAJECTORY,\"format\"");
+    let deep = deep.replace("TRAJECTORY", &format!("{{\"a\":{}", "[".repeat(30_000)));
+    let problem = app.post(JOBS, deep).await.problem(400, "/problems/malformed-json");
+    assert!(problem["detail"].as_str().unwrap().contains("recursion limit exceeded"), "{problem}");
+    assert_eq!(app.get("/healthz").await.status, 200);
+}
+
+#[tokio::test]
+async fn unknown_missing_and_doubled_fields() {
+    let problem = with_field("", "stepp", json!(1)).await.problem(422, "/problems/malformed");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/stepp");
+    assert!(problem["detail"].as_str().unwrap().contains("unknown field `stepp`"));
+    let app = App::new();
+    let problem = app.post(JOBS, r#"{"kind":"study","priority":1}"#).await.problem(422, "/problems/malformed");
+    assert_eq!(problem["pointer"], "/priority");
+    let problem = app.post(JOBS, r#"{"kind":"study"}"#).await.problem(422, "/problems/malformed");
+    assert!(problem["detail"].as_str().unwrap().starts_with("missing field `spec`"), "{problem}");
+    let problem = app.post(JOBS, r#"{"kind":"study","kind":"study"}"#).await.problem(422, "/problems/malformed");
+    assert!(problem["detail"].as_str().unwrap().contains("duplicate field `kind`"));
+    let problem = app.post(JOBS, r#"{"kind":"sweep"}"#).await.problem(422, "/problems/malformed");
+    assert_eq!(problem["pointer"], "/kind");
+}
+
+#[tokio::test]
+async fn numbers_outside_their_range_come_with_the_range() {
+    let problem = with_field("/integration", "step_s", json!(-1)).await.problem(422, "/problems/out-of-range");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/integration/step_s");
+    assert_eq!((&problem["value"], &problem["min"], &problem["max"]), (&json!(-1.0), &json!(1e-6), &json!(0.1)));
+    assert_eq!(problem["unit"], "s");
+    let problem = with_field("/recording", "samples", json!(0)).await.problem(422, "/problems/out-of-range");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/recording/samples");
+}
+
+#[tokio::test]
+async fn lists_names_and_contradictions() {
+    let gains = with_field("/scheme", "gains", json!({ "k_v": [1, 2] })).await;
+    let problem = gains.problem(422, "/problems/wrong-length");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/scheme/gains/k_v");
+    assert_eq!((&problem["found"], &problem["expected"]), (&json!(2), &json!(3)));
+    let problem = with_field("", "robot", json!("puma")).await.problem(422, "/problems/unknown");
+    assert_eq!(problem["allowed"], "crs_a465");
+    let many_steps = json!({ "step_s": 1e-6, "duration_s": 1e5 });
+    let problem = with_field("", "integration", many_steps).await.problem(422, "/problems/conflict");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/integration/step_s");
+}
+
+#[tokio::test]
+async fn studies_that_are_too_much_together() {
+    let app = App::new();
+    let problem = app.post(JOBS, study(&[]).to_string()).await.problem(422, "/problems/out-of-range");
+    assert_eq!((&problem["pointer"], &problem["max"]), (&json!("/spec/scenarios"), &json!(64.0)));
+    app.post(JOBS, study(&vec![short("proposed"); 65]).to_string()).await.problem(422, "/problems/out-of-range");
+    let long = vec![crate::support::long(); 12];
+    app.post(JOBS, study(&long).to_string()).await.problem(422, "/problems/conflict");
+    let mut labelled = study(&[short("proposed")]);
+    labelled["label"] = json!("x".repeat(201));
+    let problem = app.post(JOBS, labelled.to_string()).await.problem(422, "/problems/conflict");
+    assert_eq!(problem["pointer"], "/label");
+}
+
+#[tokio::test]
+async fn bodies_over_the_limit() {
+    let app = App::new();
+    let problem = app.post(JOBS, vec![b' '; (1 << 20) + 1]).await.problem(413, "/problems/too-large");
+    assert_eq!(problem["max_bytes"], 1 << 20);
+    let declared =
+        request("POST", JOBS).header("content-type", "application/json").header("content-length", 100_000_000);
+    app.call(declared.body(Body::empty()).unwrap()).await.problem(413, "/problems/too-large");
+    app.post(JOBS, vec![b' '; 1 << 20]).await.problem(400, "/problems/malformed-json");
+}
