@@ -74,6 +74,14 @@ impl Settings {
         (exact - 1e-9 * exact.max(1.0)).ceil().max(1.0) as u64
     }
 
+    /// Steps after which a run is given up, whatever its method.
+    pub fn most_steps(&self) -> u64 {
+        match self.method {
+            Method::Rk4 => self.steps(),
+            Method::Dopri5(_) => self.steps().saturating_mul(100).max(100_000),
+        }
+    }
+
     /// Time at which fixed step `n` starts, s; the last step ends at the duration exactly.
     pub fn step_time_s(&self, n: u64) -> f64 {
         if n >= self.steps() { self.duration_s } else { n as f64 * self.step_s }

@@ -16,6 +16,8 @@ pub enum Divergence {
     NotFinite,
     /// The adaptive integrator needed steps shorter than the clock resolves.
     StepTooSmall,
+    /// The adaptive integrator took this many steps, a hundred times what its longest step would have made, and was not done.
+    TooManySteps(u64),
 }
 
 impl fmt::Display for Divergence {
@@ -25,6 +27,9 @@ impl fmt::Display for Divergence {
                 write!(f, "the tracking error of joint {joint} exceeded {TRACKING_ERROR_LIMIT_RAD} rad")
             }
             Self::NotFinite => f.write_str("a state or torque is no longer a finite number"),
+            Self::TooManySteps(steps) => {
+                write!(f, "still not done after {steps} adaptive steps: loosen the tolerances")
+            }
             Self::StepTooSmall => f.write_str("the adaptive step became too small: too stiff or singular"),
         }
     }

@@ -176,6 +176,9 @@ impl Simulation {
     /// One step, its samples, and the check that it led somewhere sensible.
     fn take_step(&mut self) -> Result<(), Divergence> {
         let (start_s, duration_s) = (self.time_s, self.settings.duration_s);
+        if self.step >= self.settings.most_steps() {
+            return Err(Divergence::TooManySteps(self.step));
+        }
         let Self { system, stepper, state, recorder, evaluations, .. } = self;
         let system = &**system;
         let rhs = |t: f64, x: &[f64], rate: &mut [f64]| system.derivative(t, x, rate);

@@ -162,3 +162,20 @@ fn an_unstable_loop_diverges_as_an_outcome() {
     assert!(run.recording.times_s().all(|t| t < at_s));
     assert!(run.recording.rows().iter().all(|x| x.is_finite()));
 }
+
+/// Tolerances that rounding makes unreachable end the run instead of keeping the machine busy for ever.
+#[test]
+fn hopeless_tolerances_end_as_an_outcome() {
+    let mut document = Scheme::Proposed.paper();
+    document.integration = adaptarm_core::scenario::IntegrationDocument {
+        method: MethodDocument::Dopri5,
+        step_s: 0.1,
+        duration_s: 12.0,
+        relative_tolerance: Some(1e-14),
+        absolute_tolerance: Some(1e-14),
+    };
+    document.recording.samples = 10;
+    let report = Scenario::new(document).unwrap().run().report;
+    assert!(report.reason.unwrap().contains("steps"), "{:?}", report.at_s);
+    assert!(report.steps <= 100_000);
+}
