@@ -1,0 +1,91 @@
+// The loop of the page: an edit makes a generation, its runs go to the pool, results come back, listeners draw.
+//
+// Keeps the latest result of each scheme. A result of an older generation is shown while a newer one is computed, and the
+// page counts as running until every scheme's newest result is there.
+
+import { failureOf } from "./wasm.js";
+
+export class Laboratory extends EventTarget {
+  #state;
+  #pool = null;
+  /** Scheme to the generation of its newest run. */
+  #wanted = {};
+  /** Scheme to `{generation, report, elapsed_ms}` or `{generation, failure}`. */
+  results = {};
+  /** Scheme to progress of the run under way, 0 to 1. */
+  progress = {};
+  generation = 0;
+  /** When the newest generation was asked for, on the clock of `performance.now`. */
+  askedAt = 0;
+
+  constructor(state) {
+    super();
+    this.#state = state;
+  }
+
+  /** Uses a pool, whose handlers are this object's methods, and runs everything. */
+  begin(pool) {
+    this.#pool = pool;
+    this.#submit(Object.keys(this.#state.documents));
+  }
+
+  /** Whether every scheme's newest run has ended. */
+  get isReady() {
+    return Object.entries(this.#wanted).every(([scheme, wanted]) => this.results[scheme]?.generation === wanted);
+  }
+
+  /** Whether a scheme's result is that of its newest run. */
+  isCurrent(scheme) {
+    return this.results[scheme]?.generation === this.#wanted[scheme];
+  }
+
+  /** Sets a value in the documents of `schemes`; returns null, or `{pointer, message}` and changes nothing. */
+  edit(schemes, pointer, value) {
+    return this.#change(() => this.#state.edit(schemes, pointer, value));
+  }
+
+  /** Replaces documents; returns null, or `{pointer, message}` and changes nothing. */
+  replace(documents) {
+    const failure = this.#change(() => this.#state.replace(documents));
+    this.dispatchEvent(new Event("replaced"));
+    return failure;
+  }
+
+  #change(apply) {
+    try {
+      const changed = apply();
+      if (changed.length > 0) {
+        this.#submit(changed);
+      }
+      return null;
+    } catch (error) {
+      return failureOf(error);
+    }
+  }
+
+  #submit(schemes) {
+    this.generation += 1;
+    this.askedAt = performance.now();
+    for (const scheme of schemes) {
+      this.#wanted[scheme] = this.generation;
+      this.progress[scheme] = 0;
+      this.#pool.submit(scheme, this.generation, JSON.stringify(this.#state.documents[scheme]));
+    }
+    this.dispatchEvent(new Event("asked"));
+  }
+
+  done({ scheme, generation, report, rows, elapsed_ms }) {
+    this.results[scheme] = { generation, report, elapsed_ms };
+    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows } }));
+  }
+
+  failed({ scheme, generation, message }) {
+    this.results[scheme] = { generation, failure: message };
+    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows: null } }));
+  }
+
+  advanced({ scheme, progress }) {
+    this.progress[scheme] = progress;
+    this.dispatchEvent(new CustomEvent("progress", { detail: { scheme } }));
+  }
+}

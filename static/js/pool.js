@@ -1,0 +1,127 @@
+// A pool of workers with at most one waiting run per scheme: a newer run replaces an older one, so nothing queues up.
+//
+// A run that is stale but under way is asked to stop; its worker stops unless it is nearly done. A worker that dies or
+// falls silent is replaced and its run started again, a few times.
+
+const SILENCE_MS = 10_000;
+const ATTEMPTS = 2;
+
+export class RunPool {
+  #module;
+  #handlers;
+  #workers = [];
+  /** Scheme to waiting job; a replaced job keeps its place in the line. */
+  #waiting = new Map();
+  #jobs = 0;
+  #stopped = false;
+
+  /**
+   * `handlers`: `done({scheme, generation, report, rows, elapsed_ms})`, `progress({scheme, progress})`,
+   * `failed({scheme, generation, message})`, `restarted()`.
+   */
+  constructor(module, size, handlers) {
+    this.#module = module;
+    this.#handlers = handlers;
+    for (let n = 0; n < size; n += 1) {
+      this.#workers.push(this.#start({ job: null }));
+    }
+    setInterval(() => this.#watch(), SILENCE_MS / 4);
+  }
+
+  /** Runs a scenario (JSON text) for a scheme instead of whatever the scheme waited for. */
+  submit(scheme, generation, scenario) {
+    this.#waiting.set(scheme, { id: (this.#jobs += 1), scheme, generation, scenario, attempts: 0 });
+    for (const { job, worker } of this.#workers) {
+      if (job?.scheme === scheme) {
+        worker.postMessage({ type: "abandon", job: job.id });
+      }
+    }
+    this.#dispatch();
+  }
+
+  #dispatch() {
+    for (const slot of this.#workers) {
+      // One scheme never runs twice at a time: the second would only be stale sooner.
+      const next = [...this.#waiting.values()].find(({ scheme }) => !this.#workers.some((w) => w.job?.scheme === scheme));
+      if (!next) {
+        return;
+      }
+      if (slot.ready && !slot.job) {
+        this.#waiting.delete(next.scheme);
+        slot.job = next;
+        slot.heard = performance.now();
+        slot.worker.postMessage({ type: "run", job: next.id, scenario: next.scenario });
+      }
+    }
+  }
+
+  #start(slot) {
+    slot.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+    slot.ready = false;
+    slot.heard = performance.now();
+    slot.worker.onmessage = ({ data }) => this.#hear(slot, data);
+    slot.worker.onerror = (event) => {
+      event.preventDefault();
+      this.#replace(slot, event.message);
+    };
+    slot.worker.postMessage({ type: "start", module: this.#module });
+    return slot;
+  }
+
+  #hear(slot, data) {
+    slot.heard = performance.now();
+    if (data.type === "ready") {
+      slot.ready = true;
+      slot.failures = 0;
+    } else if (data.job === slot.job?.id) {
+      const { scheme, generation } = slot.job;
+      if (data.type === "progress") {
+        this.#handlers.progress({ scheme, progress: data.progress });
+        return;
+      }
+      if (data.type === "failed") {
+        this.#replace(slot, data.message);
+        return;
+      }
+      slot.job = null;
+      if (data.type === "done") {
+        const { report, rows, elapsed_ms } = data;
+        this.#handlers.done({ scheme, generation, report, rows, elapsed_ms });
+      }
+    }
+    this.#dispatch();
+  }
+
+  #watch() {
+    for (const slot of this.#workers) {
+      if ((slot.job || !slot.ready) && performance.now() - slot.heard > SILENCE_MS) {
+        this.#replace(slot, "no answer");
+      }
+    }
+  }
+
+  /** Replaces a worker; its run waits again unless a newer one does or it has been tried too often. */
+  #replace(slot, message) {
+    slot.worker.terminate();
+    const { job } = slot;
+    slot.job = null;
+    slot.failures = (slot.failures ?? 0) + 1;
+    if (job && !this.#waiting.has(job.scheme)) {
+      job.attempts += 1;
+      if (job.attempts < ATTEMPTS) {
+        this.#waiting.set(job.scheme, job);
+      } else {
+        this.#handlers.failed({ scheme: job.scheme, generation: job.generation, message });
+      }
+    }
+    if (slot.failures > ATTEMPTS) {
+      if (!this.#stopped) {
+        this.#stopped = true;
+        this.#handlers.stopped(message);
+      }
+      return;
+    }
+    this.#handlers.restarted();
+    this.#start(slot);
+  }
+}

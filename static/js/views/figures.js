@@ -1,0 +1,114 @@
+// The figures: which there are, when they are drawn, and what they say to those who cannot see them.
+//
+// However many results arrive, each card in view is drawn at most once per animation frame.
+
+import "../elements/figure-card.js";
+import { element } from "../dom.js";
+import { formatNumber, formatSeconds } from "../format.js";
+import { strings } from "../strings.js";
+
+/** In the order of the page; the signals come before the tables. */
+const SIGNALS = ["tracking_errors", "velocity_errors", "torques", "observer_errors"];
+const ESTIMATES = ["estimates_1", "estimates_2", "estimates_3"];
+
+/** What the text alternative of a figure takes from a report. */
+const SUMMARY = {
+  tracking_errors: [strings.altIndices, "index_e_deg", "°"],
+  velocity_errors: [strings.altIndices, "index_de_deg_s", "°/s"],
+  observer_errors: [strings.altPeaks, "z_peak_deg", "°"],
+  torques: [strings.altPeaks, "tau_peak_nm", "N·m"],
+};
+const ESTIMATES_PER_FIGURE = 6;
+
+export class Figures {
+  #plotter;
+  #schemes;
+  #cards = [];
+  #frame = null;
+  #after = [];
+  /** Identifiers of the schemes to draw. */
+  shown = [];
+  dark = false;
+
+  /** `containers` take the signals' figures and the estimates'. */
+  constructor(plotter, description, containers) {
+    this.#plotter = plotter;
+    this.#schemes = description.schemes;
+    for (const [container, ids] of [
+      [containers.signals, SIGNALS],
+      [containers.estimates, ESTIMATES],
+    ]) {
+      for (const id of ids) {
+        const { natural_size, paper_number } = description.figures.find((figure) => figure.id === id);
+        const card = element("figure-card");
+        const note = paper_number ? strings.paperFigure(paper_number) : null;
+        card.configure({ id, title: strings.figure[id], note, aspect: natural_size[0] / natural_size[1] }, () => this.#schedule());
+        container.append(card);
+        this.#cards.push(card);
+      }
+    }
+  }
+
+  /** Takes a scheme's samples, or null for none. */
+  setRun(scheme, rows) {
+    if (rows) {
+      this.#plotter.set_run(scheme, rows);
+    } else {
+      this.#plotter.clear(scheme);
+    }
+    this.redraw();
+  }
+
+  /** Everything in view is drawn in the next frame; then `after` is called. */
+  redraw(after) {
+    for (const card of this.#cards) {
+      card.stale = true;
+    }
+    if (after) {
+      this.#after.push(after);
+    }
+    this.#schedule();
+  }
+
+  /** Text alternatives from the latest reports, by scheme. */
+  describe(reports, seconds) {
+    for (const card of this.#cards) {
+      const id = card.dataset.figure;
+      const parts = this.#schemes
+        .filter((scheme) => this.shown.includes(scheme.id) && reports[scheme.id])
+        .map((scheme) => summarise(id, scheme, reports[scheme.id]))
+        .filter((part) => part !== null);
+      const summary = parts.length === 0 && id === "observer_errors" ? strings.noObserver : parts.join(" ");
+      card.description = strings.figureAlt(strings.figure[id], formatSeconds(seconds), summary);
+    }
+  }
+
+  #schedule() {
+    this.#frame ??= requestAnimationFrame(() => this.#draw());
+  }
+
+  #draw() {
+    this.#frame = null;
+    for (const card of this.#cards.filter(({ inView, stale }) => inView && stale)) {
+      const scale = card.prepare();
+      if (scale > 0) {
+        this.#plotter.draw(card.canvas, card.dataset.figure, this.shown, this.dark, scale);
+        card.stale = false;
+      }
+    }
+    for (const after of this.#after.splice(0)) {
+      after();
+    }
+  }
+}
+
+function summarise(figure, scheme, report) {
+  const list = (numbers) => numbers.map((number) => formatNumber(number, 3)).join(", ");
+  const ended = report.outcome === "diverged" ? ` ${strings.divergedShort(formatSeconds(report.at_s))}.` : "";
+  if (figure in SUMMARY) {
+    const [sentence, field, unit] = SUMMARY[figure];
+    return report[field] ? sentence(scheme.name, unit, list(report[field])) + ended : null;
+  }
+  const first = ESTIMATES_PER_FIGURE * (Number(figure.split("_")[1]) - 1);
+  return strings.altEnd(scheme.name, list(report.theta_hat_end.slice(first, first + ESTIMATES_PER_FIGURE))) + ended;
+}

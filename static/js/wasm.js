@@ -1,0 +1,27 @@
+// The simulation module on the main thread: loaded once, compiled once, shared with the workers.
+
+/** Loads the module. Throws with a reason for people when it is missing or broken. */
+export async function loadModule() {
+  // Imported here and not above: a missing file must be a message, not a page that stays blank.
+  const bindings = await import("../generated/adaptarm_web.js");
+  const url = new URL("../generated/adaptarm_web_bg.wasm", import.meta.url);
+  const response = await fetch(url);
+  if (!response.ok) {
+    throw new Error(`${url.pathname}: HTTP ${response.status}`);
+  }
+  const module = await WebAssembly.compile(await response.arrayBuffer());
+  await bindings.default({ module_or_path: module });
+  return { bindings, module };
+}
+
+/** What a core function threw, as `{pointer, message}`. */
+export function failureOf(error) {
+  if (typeof error === "string") {
+    try {
+      return JSON.parse(error);
+    } catch {
+      return { pointer: "", message: error };
+    }
+  }
+  return { pointer: "", message: String(error?.message ?? error) };
+}

@@ -1,0 +1,75 @@
+// A worker: advances one run at a time in slices, so that between slices it can hear that the run is stale.
+//
+// In:  {type: "start", module} | {type: "run", job, scenario} | {type: "abandon", job}
+// Out: {type: "ready"} | {type: "progress", job, progress} | {type: "abandoned", job}
+//      {type: "done", job, report, rows, elapsed_ms} | {type: "failed", job, message}
+
+import init, { Run } from "../generated/adaptarm_web.js";
+
+/** Length of a slice. Short beside a frame, long beside the cost of looking for messages. */
+const SLICE_MS = 6;
+/** A stale run that ends this soon is finished: while a slider is dragged, something must get to the screen. */
+const NEARLY_DONE_MS = 80;
+const PROGRESS_EVERY_MS = 100;
+
+let abandoned = null;
+
+// A macrotask without the delay that nested timeouts get: lets waiting messages in.
+const channel = new MessageChannel();
+let wake = null;
+channel.port1.onmessage = () => wake();
+const breathe = () =>
+  new Promise((resolve) => {
+    wake = resolve;
+    channel.port2.postMessage(null);
+  });
+
+async function compute(job, scenario) {
+  const start = performance.now();
+  const run = new Run(scenario);
+  try {
+    let steps = 200;
+    let reported = start;
+    for (;;) {
+      const before = performance.now();
+      if (run.advance(steps)) {
+        break;
+      }
+      await breathe();
+      const now = performance.now();
+      // At most twofold a time: one slow slice says little about the next.
+      steps = Math.max(1, Math.round(steps * Math.min(2, Math.max(0.5, SLICE_MS / (now - before || 1)))));
+      const progress = run.progress();
+      const left = ((now - start) / progress) * (1 - progress);
+      if (abandoned === job && left > NEARLY_DONE_MS) {
+        postMessage({ type: "abandoned", job });
+        return;
+      }
+      if (now - reported > PROGRESS_EVERY_MS) {
+        reported = now;
+        postMessage({ type: "progress", job, progress });
+      }
+    }
+    const rows = run.rows();
+    const report = JSON.parse(run.report());
+    postMessage({ type: "done", job, report, rows, elapsed_ms: performance.now() - start }, [rows.buffer]);
+  } finally {
+    run.free();
+  }
+}
+
+onmessage = async ({ data }) => {
+  if (data.type === "start") {
+    await init({ module_or_path: data.module });
+    postMessage({ type: "ready" });
+  } else if (data.type === "abandon") {
+    abandoned = data.job;
+  } else if (data.type === "run") {
+    try {
+      await compute(data.job, data.scenario);
+    } catch (error) {
+      // The module may be in any state now; whoever started this worker replaces it.
+      postMessage({ type: "failed", job: data.job, message: String(error?.message ?? error) });
+    }
+  }
+};

@@ -1,0 +1,34 @@
+//! The cases, by name.
+
+mod appearance;
+mod identity;
+mod input;
+mod keyboard;
+mod latency;
+mod resilience;
+mod sliders;
+
+use crate::bench::Bench;
+use anyhow::Result;
+
+/// A case: passes or says what is wrong.
+pub type Case = fn(&Bench) -> Result<()>;
+
+/// Every case.
+pub const ALL: &[(&str, Case)] = &[
+    ("the_default_study_has_the_same_bits_everywhere", identity::the_default_study_has_the_same_bits_everywhere),
+    ("nothing_is_asked_of_other_origins_and_nothing_is_logged", identity::nothing_is_asked_of_other_origins),
+    ("a_slider_changes_its_scheme_and_no_other", sliders::a_slider_changes_its_scheme_and_no_other),
+    ("after_sixty_rapid_moves_the_last_one_is_shown", sliders::after_sixty_rapid_moves_the_last_one_is_shown),
+    ("a_study_replaces_all_settings", sliders::a_study_replaces_all_settings),
+    ("a_diverging_run_says_when_and_why", input::a_diverging_run_says_when_and_why),
+    ("nonsense_is_refused_and_the_last_good_run_stays", input::nonsense_is_refused_and_the_last_good_run_stays),
+    ("the_keyboard_is_enough", keyboard::the_keyboard_is_enough),
+    ("a_phone_shows_everything_without_scrolling_sideways", appearance::a_phone_shows_everything),
+    ("every_colour_of_text_has_enough_contrast", appearance::every_colour_of_text_has_enough_contrast),
+    ("screenshots", appearance::screenshots),
+    ("a_slider_move_is_drawn_in_time", latency::a_slider_move_is_drawn_in_time),
+    ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
+    ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
+    ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
+];

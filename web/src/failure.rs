@@ -1,0 +1,63 @@
+//! Errors as the page receives them: an object with the JSON pointer of the offending field and the core's own message.
+
+use adaptarm_core::scenario::{ReadError, Scenario};
+use serde::Serialize;
+use wasm_bindgen::JsValue;
+
+/// What is wrong and where.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Failure {
+    /// JSON pointer to the offending field; empty for the whole document.
+    pub pointer: String,
+    /// One sentence for people.
+    pub message: String,
+}
+
+impl Failure {
+    /// A failure of the whole document or of the caller.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { pointer: String::new(), message: message.into() }
+    }
+}
+
+impl From<Failure> for JsValue {
+    /// The failure as JSON text: exceptions cross from workers as text anyway.
+    fn from(failure: Failure) -> Self {
+        Self::from_str(&serde_json::json!(failure).to_string())
+    }
+}
+
+/// Reads and checks a scenario.
+pub(crate) fn read(json: &str) -> Result<Scenario, Failure> {
+    Scenario::read(&mut serde_json::Deserializer::from_str(json)).map_err(|error| Failure {
+        pointer: error.pointer().to_owned(),
+        message: match &error {
+            // Where in a text nobody sees: the pointer says where.
+            ReadError::Document { source, .. } => {
+                let place = format!(" at line {} column {}", source.line(), source.column());
+                error.to_string().replace(&place, "")
+            }
+            ReadError::Invalid(_) => error.to_string(),
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn failure(scheme: &str) -> Failure {
+        let json = format!(r#"{{"format":"adaptarm.scenario/1","scheme":{scheme}}}"#);
+        read(&json).unwrap_err()
+    }
+
+    #[test]
+    fn a_failure_names_the_field_and_no_line() {
+        let text = failure(r#"{"kind":"slotine_li","gains":{"k_s":[1,2,"abc"]}}"#);
+        assert_eq!(text.pointer, "/scheme/gains/k_s/2");
+        assert!(text.message.contains("\"abc\"") && !text.message.contains("line"), "{}", text.message);
+        let range = failure(r#"{"kind":"slotine_li","gains":{"k_s":[1,2,-3]}}"#);
+        assert_eq!(range.pointer, "/scheme/gains/k_s/2");
+        assert!(range.message.contains("-3 is outside"), "{}", range.message);
+    }
+}
