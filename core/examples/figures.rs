@@ -10,8 +10,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for scheme in Scheme::ALL {
         runs.push((scheme, Scenario::new(scheme.paper())?.run()));
     }
-    let plotted: Vec<_> =
-        runs.iter().map(|(scheme, run)| PlottedRun { scheme: *scheme, recording: &run.recording }).collect();
+    let plotted: Vec<_> = runs
+        .iter()
+        .map(|(scheme, run)| PlottedRun { scheme: *scheme, recording: &run.recording, completed: true })
+        .collect();
     for theme in [Theme::Light, Theme::Dark] {
         for figure in Figure::ALL {
             let path = format!("{folder}/{}-{theme:?}.svg", figure.id());

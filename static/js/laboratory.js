@@ -76,7 +76,7 @@ export class Laboratory extends EventTarget {
 
   done({ scheme, generation, report, rows, elapsed_ms }) {
     this.results[scheme] = { generation, report, elapsed_ms };
-    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows } }));
+    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows, completed: report.outcome === "completed" } }));
   }
 
   failed({ scheme, generation, message }) {

@@ -87,10 +87,10 @@ function build({ bindings, module, description, state, paper }) {
     cards[scheme].progress = laboratory.progress[scheme];
   });
   let pendingText = null;
-  laboratory.addEventListener("result", ({ detail: { scheme, rows } }) => {
+  laboratory.addEventListener("result", ({ detail: { scheme, rows, completed } }) => {
     const { results } = laboratory;
     cards[scheme].result = results[scheme];
-    figures.setRun(scheme, rows);
+    figures.setRun(scheme, rows, completed);
     const { generation } = laboratory;
     const texts = () => {
       pendingText = null;

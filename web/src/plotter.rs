@@ -11,8 +11,8 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Plotter {
-    /// By the scheme's place in [`Scheme::ALL`], which is also the order of drawing.
-    runs: BTreeMap<usize, Recording>,
+    /// Samples and whether the run completed, by the scheme's place in [`Scheme::ALL`], which is also the order of drawing.
+    runs: BTreeMap<usize, (Recording, bool)>,
 }
 
 #[wasm_bindgen]
@@ -23,12 +23,12 @@ impl Plotter {
         Self::default()
     }
 
-    /// Replaces a scheme's samples by `rows` as `Run.rows` gives them. Throws on a scheme that does not exist.
-    pub fn set_run(&mut self, scheme: &str, rows: Vec<f64>) -> Result<(), wasm_bindgen::JsValue> {
+    /// Replaces a scheme's samples by `rows` as `Run.rows` gives them; `completed` is false for a diverged run. Throws on a scheme that does not exist.
+    pub fn set_run(&mut self, scheme: &str, rows: Vec<f64>, completed: bool) -> Result<(), wasm_bindgen::JsValue> {
         // The one robot so far.
         let robot = ROBOTS[0];
         let columns = Columns { joints: robot.joint_count(), parameters: robot.parameter_count() };
-        self.runs.insert(place(scheme)?, Recording::from_rows(columns, rows));
+        self.runs.insert(place(scheme)?, (Recording::from_rows(columns, rows), completed));
         Ok(())
     }
 
@@ -70,8 +70,13 @@ mod drawing {
             let figure = Figure::from_id(figure).ok_or_else(|| Failure::new(format!("{figure:?} is not a figure")))?;
             let backend = Canvas::new(canvas).ok_or_else(|| Failure::new("the canvas cannot be drawn on"))?;
             let shown = self.runs.iter().filter(|(place, _)| schemes.iter().any(|id| id == Scheme::ALL[**place].id()));
-            let runs: Vec<_> =
-                shown.map(|(place, recording)| PlottedRun { scheme: Scheme::ALL[*place], recording }).collect();
+            let runs: Vec<_> = shown
+                .map(|(place, (recording, completed))| PlottedRun {
+                    scheme: Scheme::ALL[*place],
+                    recording,
+                    completed: *completed,
+                })
+                .collect();
             let theme = if dark { Theme::Dark } else { Theme::Light };
             figures::draw(&backend.into_drawing_area(), figure, ROBOTS[0], &runs, Style { theme, scale })
                 .map_err(|error| Failure::new(error.to_string()).into())

@@ -2,9 +2,12 @@
 //!
 //! `panels` decides what a figure shows, `draw` how a panel looks, `style` its colours and sizes. One code for all targets.
 
+mod axes;
 mod decimate;
 mod draw;
+mod legend;
 mod panels;
+mod pen;
 mod style;
 mod svg;
 

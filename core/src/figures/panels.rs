@@ -11,6 +11,8 @@ pub struct PlottedRun<'a> {
     pub scheme: Scheme,
     /// Its samples.
     pub recording: &'a Recording,
+    /// Whether it reached its duration; the last values of a diverged run must not decide a panel's range.
+    pub completed: bool,
 }
 
 /// A figure.
@@ -122,7 +124,7 @@ impl Figure {
     }
 
     /// Whether a scheme's run belongs in the figure.
-    pub(super) fn shows(self, scheme: Scheme) -> bool {
+    pub fn shows(self, scheme: Scheme) -> bool {
         self != Self::ObserverErrors || scheme == Scheme::Proposed
     }
 

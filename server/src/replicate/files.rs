@@ -33,7 +33,11 @@ fn draw(replication: &Replication) -> Result<Vec<(Figure, String)>> {
         .scenarios
         .iter()
         .zip(&replication.runs)
-        .map(|(scenario, run)| PlottedRun { scheme: scenario.scheme(), recording: &run.recording })
+        .map(|(scenario, run)| PlottedRun {
+            scheme: scenario.scheme(),
+            recording: &run.recording,
+            completed: run.report.at_s.is_none(),
+        })
         .collect();
     Figure::ALL.into_iter().map(|figure| Ok((figure, figure_svg(figure, robot, &runs, Theme::Light)?))).collect()
 }

@@ -49,10 +49,10 @@ export class Figures {
     }
   }
 
-  /** Takes a scheme's samples, or null for none. */
-  setRun(scheme, rows) {
+  /** Takes a scheme's samples, or null for none, and whether its run completed. */
+  setRun(scheme, rows, completed) {
     if (rows) {
-      this.#plotter.set_run(scheme, rows);
+      this.#plotter.set_run(scheme, rows, completed);
     } else {
       this.#plotter.clear(scheme);
     }
