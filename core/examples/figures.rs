@@ -12,7 +12,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let plotted: Vec<_> = runs
         .iter()
-        .map(|(scheme, run)| PlottedRun { scheme: *scheme, recording: &run.recording, completed: true })
+        .map(|(scheme, run)| PlottedRun {
+            scheme: *scheme,
+            recording: &run.recording,
+            completed: true,
+            theta_true: &run.report.theta_true,
+        })
         .collect();
     for theme in [Theme::Light, Theme::Dark] {
         for figure in Figure::ALL {

@@ -100,10 +100,9 @@ impl Recording {
         Self { columns, rows: Vec::with_capacity(columns.width() * samples) }
     }
 
-    /// From rows as [`Recording::rows`] gives them; what is left of an incomplete last row is dropped.
-    pub fn from_rows(columns: Columns, mut rows: Vec<f64>) -> Self {
-        rows.truncate(rows.len() / columns.width() * columns.width());
-        Self { columns, rows }
+    /// From rows as [`Recording::rows`] gives them; `None` where they end in the middle of a row.
+    pub fn from_rows(columns: Columns, rows: Vec<f64>) -> Option<Self> {
+        rows.len().is_multiple_of(columns.width()).then_some(Self { columns, rows })
     }
 
     /// Adds a row that `observe` fills behind its time; a row with a number that is not finite is refused.

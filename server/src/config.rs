@@ -9,7 +9,7 @@ use std::time::Duration;
 pub struct Config {
     /// Address to listen on; port 0 means any free port.
     pub bind: SocketAddr,
-    /// Folder for what must outlive the process.
+    /// Folder reserved for results; nothing is stored in it yet.
     pub data: Option<PathBuf>,
     /// How many studies may wait or run, and how many finished ones are kept.
     pub capacity: Capacity,

@@ -85,11 +85,6 @@ pub fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, DocumentError> {
         let message = "it is empty".to_owned();
         return Err(DocumentError::Syntax { pointer: String::new(), message, line: 1, column: 0 });
     }
-    // Serde would take the fields of a struct from a list too, in their order in the source.
-    if text.trim_start().starts_with('[') {
-        let message = "is a list; an object is needed: { ... }".to_owned();
-        return Err(ScenarioError::new("", Problem::Malformed { message }).into());
-    }
     let mut json = serde_json::Deserializer::from_str(text);
     let document = read_document(&mut json).map_err(|error| match error {
         ReadError::Document { pointer, source } => from_json(pointer, &source),
@@ -127,25 +122,22 @@ fn from_json(pointer: String, error: &serde_json::Error) -> DocumentError {
 
 /// A reader's message in terms of JSON instead of Rust.
 fn plain(message: &str) -> String {
-    const WORDS: [(&str, &str); 6] = [
-        ("expected f64 at", "expected a number at"),
-        ("expected u64 at", "expected a whole number from 0 up at"),
-        ("expected usize at", "expected a whole number from 0 up at"),
-        ("expected a sequence at", "expected a list at"),
-        ("invalid type: sequence,", "invalid type: list,"),
-        ("invalid type: map,", "invalid type: object,"),
-    ];
-    let mut message = message.to_owned();
-    for (rust, json) in WORDS {
-        message = message.replace(rust, json);
-    }
-    for kind in ["struct ", "internally tagged enum ", "adjacently tagged enum "] {
-        if let Some((before, after)) = message.split_once(&format!("expected {kind}")) {
-            let rest = after.split_once(' ').map_or("", |(_, rest)| rest);
-            message = format!("{before}expected an object {rest}");
-        }
-    }
-    message
+    // What is found may be quoted from the document and stays as it is; what is expected stands at the end.
+    let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
+    let found = match found {
+        "invalid type: sequence" => "invalid type: list",
+        "invalid type: map" => "invalid type: object",
+        found => found,
+    };
+    let expected = match expected {
+        "f64" => "a number",
+        "u64" | "usize" => "a whole number from 0 up",
+        "a sequence" => "a list",
+        _ if expected.starts_with("struct ") || expected.contains(" tagged enum ") => "an object",
+        _ if expected.starts_with("enum ") || expected.starts_with("variant of enum ") => "a name",
+        _ => expected,
+    };
+    format!("{found}, expected {expected}")
 }
 
 /// A message as one line of bounded length, whatever it quotes.
@@ -175,24 +167,23 @@ mod tests {
         assert_eq!(error(" \n"), "not JSON: it is empty");
         assert!(error(r#"{"integration": {"step_s": NaN}}"#).starts_with("integration.step_s: not JSON: "));
         let nested = format!(r#"{{"format": {}"#, "[".repeat(200_000));
-        assert!(error(&nested).starts_with("format: "), "{}", error(&nested));
+        let message = error(&nested);
+        assert!(message.starts_with("format[0][0]") && message.contains("not JSON: recursion limit"), "{message}");
     }
 
     #[test]
     fn speaks_of_json_and_not_of_rust() {
-        assert_eq!(error("3"), "scenario: invalid type: integer `3`, expected an object at line 1 column 1");
-        assert_eq!(error("[]"), "scenario: is a list; an object is needed: { ... }");
+        assert_eq!(error("3"), "scenario: invalid type: integer `3`, expected an object");
+        assert_eq!(error("[]"), "scenario: invalid type: list, expected an object");
+        assert_eq!(error(r#"{"seed": -3}"#), "seed: invalid value: integer `-3`, expected a whole number from 0 up");
         assert_eq!(
-            error(r#"{"seed": -3}"#),
-            "seed: invalid value: integer `-3`, expected a whole number from 0 up at line 1 column 11"
+            error(r#"{"integration": {"step_s": "NaN, expected f64"}}"#),
+            r#"integration.step_s: invalid type: string "NaN, expected f64", expected a number"#
         );
-        let wrong = r#"{"integration": {"step_s": "NaN"}}"#;
-        assert!(
-            error(wrong).contains(r#"step_s: invalid type: string "NaN", expected a number at"#),
-            "{}",
-            error(wrong)
-        );
-        assert!(error(r#"{"trajectory": 5}"#).contains("expected an object"), "{}", error(r#"{"trajectory": 5}"#));
+        assert_eq!(error(r#"{"trajectory": 5}"#), "trajectory: invalid type: integer `5`, expected an object");
+        for kind in [r#"{"scheme": {"kind": 3}}"#, r#"{"trajectory": {"kind": 3}}"#] {
+            assert!(error(kind).ends_with(".kind: invalid type: integer `3`, expected a name"), "{}", error(kind));
+        }
     }
 
     #[test]

@@ -7,6 +7,8 @@
 //! | `/problems/malformed-json` | 400 | not JSON: `line`, `column`, `pointer` |
 //! | `/problems/out-of-range` | 422 | number outside its range: `pointer`, `value`, `min`, `max`, `unit` |
 //! | `/problems/wrong-length` | 422 | list of the wrong length: `pointer`, `found`, `expected`, `why` |
+//! | `/problems/too-long` | 422 | list or label over its longest: `pointer`, `found`, `most`, `what` |
+//! | `/problems/too-much` | 422 | study over its limit of scenarios, steps or samples: `pointer`, `what`, `total`, `most` |
 //! | `/problems/unknown` | 422 | name without meaning: `pointer`, `value`, `allowed` |
 //! | `/problems/conflict` | 422 | fields that contradict each other: `pointer`, `message` |
 //! | `/problems/malformed` | 422 | unknown, missing or doubled field, or wrong type: `pointer`, `message` |
@@ -20,6 +22,7 @@
 //! | `/problems/http` | any | nothing but what the status says |
 
 use crate::document::DocumentError;
+use crate::jobs::StudyError;
 use adaptarm_core::scenario::ScenarioError;
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_LENGTH, CONTENT_TYPE, HeaderValue, RETRY_AFTER};
@@ -111,6 +114,7 @@ impl From<ScenarioError> for Problem {
         let (kind, title) = match &error.problem {
             Wrong::OutOfRange { .. } => ("/problems/out-of-range", "A number is outside its allowed range"),
             Wrong::WrongLength { .. } => ("/problems/wrong-length", "A list has the wrong length"),
+            Wrong::TooMany { .. } => ("/problems/too-long", "Longer than allowed"),
             Wrong::Unknown { .. } => ("/problems/unknown", "A name is not known"),
             Wrong::Conflict { .. } => ("/problems/conflict", "Fields contradict each other"),
             Wrong::Malformed { .. } => ("/problems/malformed", "Not the document that is needed"),
@@ -122,6 +126,22 @@ impl From<ScenarioError> for Problem {
         }
         problem.fields.remove("problem");
         problem
+    }
+}
+
+impl From<StudyError> for Problem {
+    fn from(error: StudyError) -> Self {
+        let detail = error.to_string();
+        match error {
+            StudyError::Document(error) => error.into(),
+            StudyError::TooMuch { pointer, what, total, most } => {
+                Self::new(StatusCode::UNPROCESSABLE_ENTITY, "/problems/too-much", "Too much for one study", detail)
+                    .with("pointer", pointer)
+                    .with("what", what)
+                    .with("total", total)
+                    .with("most", most)
+            }
+        }
     }
 }
 

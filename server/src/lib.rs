@@ -17,4 +17,5 @@ pub mod replicate;
 pub mod router;
 pub mod routes;
 pub mod state;
+pub mod stdout;
 pub mod telemetry;

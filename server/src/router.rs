@@ -39,7 +39,7 @@ pub fn build_app(state: AppState) -> Router {
     Router::new()
         .merge(assets::router())
         .merge(routes::health())
-        .nest("/api/v1", routes::api())
+        .merge(routes::api())
         .fallback(|| async { StatusCode::NOT_FOUND })
         .layer(around)
         .with_state(state)

@@ -76,7 +76,7 @@ export class Laboratory extends EventTarget {
 
   done({ scheme, generation, report, rows, elapsed_ms }) {
     this.results[scheme] = { generation, report, elapsed_ms };
-    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows, completed: report.outcome === "completed" } }));
+    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows, report } }));
   }
 
   failed({ scheme, generation, message }) {

@@ -10,6 +10,7 @@ import { strings } from "./strings.js";
 import { initTheme, isDark } from "./theme.js";
 import { Figures } from "./views/figures.js";
 import { buildGains } from "./views/gains.js";
+import { buildPinned } from "./views/pinned.js";
 import { buildSetup } from "./views/setup.js";
 import { buildTables } from "./views/tables.js";
 import { failureOf, loadModule } from "./wasm.js";
@@ -61,6 +62,7 @@ function build({ bindings, module, description, state, paper }) {
   const resetAll = () => laboratory.replace(structuredClone(paper));
   const showSetup = buildSetup(byId("setup-fields"), { description, state, laboratory, resetAll });
   const showGains = buildGains(byId("scheme-tabs"), { description, state, laboratory });
+  buildPinned(byId("pinned"), figures);
   const showTables = buildTables(byId("tables-body"), description);
   const cards = buildCards({ description, state, figures });
   const paint = () => paintTheme(description, figures);
@@ -87,10 +89,10 @@ function build({ bindings, module, description, state, paper }) {
     cards[scheme].progress = laboratory.progress[scheme];
   });
   let pendingText = null;
-  laboratory.addEventListener("result", ({ detail: { scheme, rows, completed } }) => {
+  laboratory.addEventListener("result", ({ detail: { scheme, rows, report } }) => {
     const { results } = laboratory;
     cards[scheme].result = results[scheme];
-    figures.setRun(scheme, rows, completed);
+    figures.setRun(scheme, rows, report);
     const { generation } = laboratory;
     const texts = () => {
       pendingText = null;

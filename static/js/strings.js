@@ -58,7 +58,7 @@ export const strings = {
   copied: "Trajectory hash copied.",
 
   stateRunning: "computing…",
-  stateReady: (milliseconds) => `up to date · ${milliseconds} ms`,
+  stateReady: (milliseconds) => `up\u00a0to\u00a0date · ${milliseconds}\u00a0ms`,
   announceReady: (parts) => `Results updated. ${parts}`,
 
   figure: {
@@ -70,6 +70,9 @@ export const strings = {
     estimates_3: "Estimates θ13 to θ18",
     torques: "Joint torques",
   },
+  pinnedFigure: "Pinned figure",
+  pinnedHide: "Hide",
+  pinnedShow: "Show",
   paperFigure: (number) => `Paper fig. ${number}`,
   figureAlt: (title, seconds, summary) => `${title} over ${seconds}. ${summary}`,
   altIndices: (scheme, unit, numbers) => `${scheme}: root mean square ${numbers} ${unit}, joints 1 to 3.`,
@@ -77,8 +80,8 @@ export const strings = {
   altEnd: (scheme, numbers) => `${scheme} ends at ${numbers}.`,
   noObserver: "The scheme with an observer is hidden.",
 
-  table1: "Performance index of the joint errors, °",
-  table2: "Performance index of the joint velocity errors, °/s",
+  table1: "Performance index of the joint errors,\u00a0°",
+  table2: "Performance index of the joint velocity errors,\u00a0°/s",
   tableOther: "Peaks and settling",
   jointShort: (number) => `Joint ${number}`,
   paperValue: (value) => `paper ${value}`,
@@ -89,12 +92,12 @@ export const strings = {
   scheme: "Scheme",
   quantity: "Joints 1, 2, 3",
   rows: {
-    e_peak_deg: "Peak |e|, °",
-    z_peak_deg: "Peak |z|, °",
-    tau_peak_nm: "Peak |τ|, N·m",
-    voltage_peak_v: "Peak motor voltage, V",
-    settling_e_s: "|e| settles, s",
-    settling_de_s: "|ė| settles, s",
+    e_peak_deg: "Peak |e|,\u00a0°",
+    z_peak_deg: "Peak |z|,\u00a0°",
+    tau_peak_nm: "Peak |τ|,\u00a0N·m",
+    voltage_peak_v: "Peak motor voltage,\u00a0V",
+    settling_e_s: "|e| settles,\u00a0s",
+    settling_de_s: "|ė| settles,\u00a0s",
   },
   settlingNote: (e, de) => `Settled: |e| stays within ${e}°, |ė| within ${de}°/s. A dash means never, or does not apply.`,
 

@@ -7,12 +7,20 @@ use adaptarm_core::scenario::Scheme;
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+/// A run that is shown.
+#[cfg_attr(not(target_arch = "wasm32"), expect(dead_code, reason = "read only where there is a canvas"))]
+struct Shown {
+    recording: Recording,
+    completed: bool,
+    theta_true: Vec<f64>,
+}
+
 /// The latest runs and how to draw them.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Plotter {
-    /// Samples and whether the run completed, by the scheme's place in [`Scheme::ALL`], which is also the order of drawing.
-    runs: BTreeMap<usize, (Recording, bool)>,
+    /// By the scheme's place in [`Scheme::ALL`], which is also the order of drawing.
+    runs: BTreeMap<usize, Shown>,
 }
 
 #[wasm_bindgen]
@@ -23,12 +31,21 @@ impl Plotter {
         Self::default()
     }
 
-    /// Replaces a scheme's samples by `rows` as `Run.rows` gives them; `completed` is false for a diverged run. Throws on a scheme that does not exist.
-    pub fn set_run(&mut self, scheme: &str, rows: Vec<f64>, completed: bool) -> Result<(), wasm_bindgen::JsValue> {
+    /// Replaces a scheme's samples by `rows` as `Run.rows` gives them; `completed` is false for a diverged run,
+    /// `theta_true` its arm's parameters. Throws on a scheme that does not exist.
+    pub fn set_run(
+        &mut self,
+        scheme: &str,
+        rows: Vec<f64>,
+        completed: bool,
+        theta_true: Vec<f64>,
+    ) -> Result<(), wasm_bindgen::JsValue> {
         // The one robot so far.
         let robot = ROBOTS[0];
         let columns = Columns { joints: robot.joint_count(), parameters: robot.parameter_count() };
-        self.runs.insert(place(scheme)?, (Recording::from_rows(columns, rows), completed));
+        let recording = Recording::from_rows(columns, rows)
+            .ok_or_else(|| Failure::new("the samples end in the middle of a row".to_owned()))?;
+        self.runs.insert(place(scheme)?, Shown { recording, completed, theta_true });
         Ok(())
     }
 
@@ -71,10 +88,11 @@ mod drawing {
             let backend = Canvas::new(canvas).ok_or_else(|| Failure::new("the canvas cannot be drawn on"))?;
             let shown = self.runs.iter().filter(|(place, _)| schemes.iter().any(|id| id == Scheme::ALL[**place].id()));
             let runs: Vec<_> = shown
-                .map(|(place, (recording, completed))| PlottedRun {
+                .map(|(place, run)| PlottedRun {
                     scheme: Scheme::ALL[*place],
-                    recording,
-                    completed: *completed,
+                    recording: &run.recording,
+                    completed: run.completed,
+                    theta_true: &run.theta_true,
                 })
                 .collect();
             let theme = if dark { Theme::Dark } else { Theme::Light };

@@ -10,6 +10,8 @@ use crate::steps::{Outcome, Steps};
 use crate::workspace::{Workspace, build_server};
 use crate::{DistArgs, Purpose, TestArgs, browser, dist, setup, tidy, tools};
 
+/// Random cases per property in a soak; proptest's own default is 256.
+const SOAK_CASES: &str = "20000";
 const UNOPTIMISED_TEST: &str = "core/tests/trajectory_hashes.rs";
 
 pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
@@ -60,7 +62,7 @@ fn tests(workspace: &Workspace, args: &TestArgs) -> Command {
     let mut command = workspace.cargo();
     command.env("ADAPTARM_BIN", workspace.server_program("release"));
     if args.soak {
-        command.env("ADAPTARM_SOAK", "1");
+        command.env("PROPTEST_CASES", SOAK_CASES);
     }
     if args.no_browser {
         command.env("ADAPTARM_NO_BROWSER", "1").env_remove("REQUIRE_BROWSER");

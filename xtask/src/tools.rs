@@ -122,8 +122,8 @@ mod tests {
     #[test]
     fn a_described_command_can_be_pasted_into_a_shell() {
         let mut command = Command::new("cargo");
-        command.env("ADAPTARM_SOAK", "1").env_remove("RUSTC").args(["test", "--", "it's slow"]);
-        assert_eq!(describe(&command), r"ADAPTARM_SOAK=1 cargo test -- 'it'\''s slow'");
+        command.env("PROPTEST_CASES", "1").env_remove("RUSTC").args(["test", "--", "it's slow"]);
+        assert_eq!(describe(&command), r"PROPTEST_CASES=1 cargo test -- 'it'\''s slow'");
     }
 
     #[test]

@@ -4,23 +4,12 @@ use super::axes::{format_tick, tick_step, value_range};
 use super::decimate::decimate;
 use super::legend::draw_legend;
 use super::panels::{Figure, Panel, PlottedRun};
-use super::pen::{Pen, draw_line, rgb};
+use super::pen::{DrawError, Pen, draw_line, rgb};
 use super::style::{Dash, Style, scheme_style};
 use crate::robots::RobotData;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::Pos;
-
-/// The backend failed.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the figure could not be drawn: {0}")]
-pub struct DrawError(String);
-
-impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for DrawError {
-    fn from(error: DrawingAreaErrorKind<E>) -> Self {
-        Self(error.to_string())
-    }
-}
 
 /// Line of a parameter's true value.
 const TRUTH_DASH: Dash = Dash(Some((1, 2)));
@@ -36,7 +25,8 @@ pub fn draw<DB: DrawingBackend>(
     let pen = Pen { style };
     area.fill(&rgb(style.theme.background()))?;
     let runs: Vec<_> = runs.iter().copied().filter(|run| figure.shows(run.scheme)).collect();
-    let panels = figure.panels(robot);
+    // Runs side by side are runs of one arm.
+    let panels = figure.panels(robot, runs.first().map_or(&[], |run| run.theta_true));
     let mut entries: Vec<_> =
         runs.iter().map(|run| (run.scheme.name(), scheme_style(run.scheme, style.theme))).collect();
     if panels.iter().any(|panel| panel.truth.is_some()) {
@@ -82,6 +72,8 @@ fn draw_panel<DB: DrawingBackend>(
         .build_cartesian_2d(0.0..end_s, range.0..range.1)?;
     let label = pen.text(11.0, theme.ink(), Pos::default());
     let step = tick_step(range.1 - range.0);
+    // As many as the panel has room for.
+    let y_labels = ((f64::from(area.dim_in_pixel().1) / pen.style.scale / 28.0) as usize).clamp(2, 5);
     let format_y = |y: &f64| format_tick(*y, step);
     let format_t = |t: &f64| format_tick(*t, tick_step(end_s));
     let mut mesh = chart.configure_mesh();
@@ -89,7 +81,7 @@ fn draw_panel<DB: DrawingBackend>(
         .set_all_tick_mark_size(pen.px(4.0))
         .max_light_lines(0)
         .x_labels(7)
-        .y_labels(5)
+        .y_labels(y_labels)
         .bold_line_style(rgb(theme.grid()).stroke_width(pen.stroke(1.0)))
         .axis_style(rgb(theme.ink()).stroke_width(pen.stroke(1.0)))
         .label_style(label.clone())

@@ -1,7 +1,6 @@
 //! The legend: a sample of each line with its name, on as many rows as the width asks for.
 
-use super::draw::DrawError;
-use super::pen::{Pen, draw_line};
+use super::pen::{DrawError, Pen, draw_line};
 use super::style::{Dash, Rgb};
 use plotters::coord::Shift;
 use plotters::prelude::*;

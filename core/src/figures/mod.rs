@@ -11,7 +11,8 @@ mod pen;
 mod style;
 mod svg;
 
-pub use draw::{DrawError, draw};
+pub use draw::draw;
 pub use panels::{Figure, PlottedRun};
+pub use pen::DrawError;
 pub use style::{Dash, Rgb, Style, Theme, scheme_style};
 pub use svg::svg;

@@ -13,6 +13,8 @@ pub struct PlottedRun<'a> {
     pub recording: &'a Recording,
     /// Whether it reached its duration; the last values of a diverged run must not decide a panel's range.
     pub completed: bool,
+    /// True parameters of its arm; none are drawn if it is empty.
+    pub theta_true: &'a [f64],
 }
 
 /// A figure.
@@ -128,8 +130,8 @@ impl Figure {
         self != Self::ObserverErrors || scheme == Scheme::Proposed
     }
 
-    /// Its panels, for a robot.
-    pub(super) fn panels(self, robot: &RobotData) -> Vec<Panel> {
+    /// Its panels, for a robot whose true parameters are `theta`.
+    pub(super) fn panels(self, robot: &RobotData, theta: &[f64]) -> Vec<Panel> {
         let per_joint = |symbol: &str, unit: &str, signal: Signal, factor: f64| {
             (0..robot.joint_count())
                 .map(|component| Panel {
@@ -150,7 +152,7 @@ impl Figure {
                     signal: Signal::ThetaHat,
                     component,
                     factor: 1.0,
-                    truth: Some(parameter.value),
+                    truth: theta.get(component).copied(),
                 })
                 .collect()
         };

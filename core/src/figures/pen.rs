@@ -1,10 +1,20 @@
-//! The pen: layout lengths on a device, texts, and polylines with dashes.
+//! The pen: layout lengths on a device, texts, polylines with dashes, and what can go wrong with them.
 
-use super::draw::DrawError;
 use super::style::{Dash, Rgb, Style};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::Pos;
+
+/// The backend failed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the figure could not be drawn: {0}")]
+pub struct DrawError(String);
+
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for DrawError {
+    fn from(error: DrawingAreaErrorKind<E>) -> Self {
+        Self(error.to_string())
+    }
+}
 
 /// Font of every text; each backend maps it to what it has.
 const FONT: &str = "sans-serif";

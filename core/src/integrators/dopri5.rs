@@ -44,13 +44,13 @@ pub struct Tolerances {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StepTooSmall;
 
-/// Adaptive integrator; its whole memory between steps is `step_s`, so a run can be resumed to the same bits.
+/// Adaptive integrator; its whole memory between steps is the next step, so a run can be resumed to the same bits.
 #[derive(Debug, Clone)]
 pub struct Dopri5 {
     tolerances: Tolerances,
     max_step_s: f64,
     /// Step that the next attempt will use, s.
-    pub step_s: f64,
+    step_s: f64,
     /// Slopes k1..k7 of the last accepted step.
     slopes: [Vec<f64>; 7],
     stage: Vec<f64>,
@@ -71,6 +71,23 @@ impl Dopri5 {
             start: vec![0.0; len],
             start_s: 0.0,
             taken_s: 0.0,
+        }
+    }
+
+    /// Step that the next attempt will use, s.
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// Whether this can be the next step: positive and not above the longest.
+    pub fn accepts_step(&self, step_s: f64) -> bool {
+        step_s > 0.0 && step_s <= self.max_step_s
+    }
+
+    /// Takes up a run whose next step is `step_s`; steps that cannot be are ignored.
+    pub fn set_step(&mut self, step_s: f64) {
+        if self.accepts_step(step_s) {
+            self.step_s = step_s;
         }
     }
 

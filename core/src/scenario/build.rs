@@ -1,7 +1,7 @@
 //! From a checked document to the closed loop it describes: the three schemes as points in one space.
 
 use super::document::{
-    FrictionDocument, InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
+    InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
 };
 use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
 use crate::adaptation::{
@@ -9,10 +9,10 @@ use crate::adaptation::{
     Projection,
 };
 use crate::control::{CoriolisVelocity, SlidingFeedback};
-use crate::dynamics::{FrictionSign, Plant};
+use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
 use crate::recording::Columns;
-use crate::robots::{Robot, RobotData};
+use crate::robots::{CrsA465, Robot, RobotData};
 use crate::scalar::Scalar;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
 use crate::trajectories::{Fourier, Remembered};
@@ -112,12 +112,9 @@ where
     A: AdaptationLaw<R, T, N, P> + 'static,
     T: Scalar,
 {
-    let FrictionDocument::Tanh { width_rad_s } = document.plant.friction;
-    let scale = document.plant.theta_scale.as_deref();
-    let theta =
-        SVector::<T, P>::from_fn(|k, _| T::splat(R::DATA.parameters[k].value * scale.map_or(1.0, |scale| scale[k])));
+    let theta = theta(document, R::DATA);
     Box::new(ClosedLoop::<R, V, A, T, N, P> {
-        plant: Plant::new(theta, FrictionSign::from_width(width_rad_s)),
+        plant: Plant::new(vector(&theta), FrictionSign::from_width(document.plant.friction.width_rad_s)),
         trajectory: Remembered::new(trajectory(&document.trajectory)),
         velocity_source,
         feedback,
@@ -129,18 +126,36 @@ where
     })
 }
 
+/// True parameters of the simulated arm: the robot's, scaled.
+pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> {
+    let mut theta = robot.theta();
+    if let Some(scale) = &document.plant.theta_scale {
+        theta.iter_mut().zip(scale).for_each(|(theta, scale)| *theta *= scale);
+    }
+    theta
+}
+
+/// Whether an arm with these parameters can exist.
+pub(super) fn has_positive_inertia(theta: &[f64]) -> bool {
+    // The one robot so far, as in `Scenario::closed_loop`.
+    dynamics::has_positive_inertia::<CrsA465, 3, 18>(&vector(theta))
+}
+
 /// Source: paper eq. (24) for the paper's own.
 fn trajectory<T: Scalar, const N: usize>(document: &TrajectoryDocument) -> Fourier<T, N> {
-    match document {
-        TrajectoryDocument::Paper => Fourier::from_degrees(
+    match document.kind {
+        TrajectoryKind::Paper => Fourier::from_degrees(
             1.0,
             &[0.0, 90.0, -90.0],
             &[vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]],
             &[],
         ),
-        TrajectoryDocument::Fourier { frequency_rad_s, offset_deg, sine_deg, cosine_deg } => {
-            Fourier::from_degrees(*frequency_rad_s, offset_deg, sine_deg, cosine_deg)
-        }
+        TrajectoryKind::Fourier => Fourier::from_degrees(
+            document.frequency_rad_s.unwrap_or(1.0),
+            document.offset_deg.as_deref().unwrap_or_default(),
+            document.sine_deg.as_deref().unwrap_or_default(),
+            document.cosine_deg.as_deref().unwrap_or_default(),
+        ),
     }
 }
 

@@ -60,52 +60,61 @@ pub struct PlantDocument {
 /// Regularisation of friction's sign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum FrictionDocument {
-    /// `tanh(v / width)`.
-    Tanh {
-        /// Width, rad/s; 0 means the true sign.
-        #[serde(default = "default_friction_width")]
-        width_rad_s: f64,
-    },
+#[serde(deny_unknown_fields, default)]
+pub struct FrictionDocument {
+    /// Shape.
+    pub kind: FrictionKind,
+    /// Width, rad/s; 0 means the true sign.
+    pub width_rad_s: f64,
 }
 
-fn default_friction_width() -> f64 {
-    0.01
+/// Shape of friction's regularised sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum FrictionKind {
+    /// `tanh(v / width)`.
+    #[default]
+    Tanh,
 }
 
 impl Default for FrictionDocument {
     fn default() -> Self {
-        Self::Tanh { width_rad_s: default_friction_width() }
+        Self { kind: FrictionKind::Tanh, width_rad_s: 0.01 }
     }
 }
 
-/// The desired trajectory.
+/// The desired trajectory. One struct for all kinds, so that a mistake in it is found at its place.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum TrajectoryDocument {
+#[serde(deny_unknown_fields)]
+pub struct TrajectoryDocument {
+    /// Which; the other fields belong to `fourier`.
+    pub kind: TrajectoryKind,
+    /// Base angular frequency, rad/s; 1 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency_rad_s: Option<f64>,
+    /// Constant part per joint, deg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset_deg: Option<Vec<f64>>,
+    /// Amplitudes of the sines per joint and harmonic, deg; none when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sine_deg: Option<Vec<Vec<f64>>>,
+    /// Amplitudes of the cosines per joint and harmonic, deg; none when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cosine_deg: Option<Vec<Vec<f64>>>,
+}
+
+/// Kind of trajectory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum TrajectoryKind {
     /// Paper eq. (24).
     #[default]
     Paper,
     /// A finite Fourier series per joint.
-    Fourier {
-        /// Base angular frequency, rad/s.
-        #[serde(default = "default_frequency")]
-        frequency_rad_s: f64,
-        /// Constant part per joint, deg.
-        offset_deg: Vec<f64>,
-        /// Amplitudes of the sines per joint and harmonic, deg.
-        #[serde(default)]
-        sine_deg: Vec<Vec<f64>>,
-        /// Amplitudes of the cosines per joint and harmonic, deg.
-        #[serde(default)]
-        cosine_deg: Vec<Vec<f64>>,
-    },
-}
-
-fn default_frequency() -> f64 {
-    1.0
+    Fourier,
 }
 
 /// A control scheme with its gains; gains left out are the paper's.
@@ -207,7 +216,7 @@ impl ScenarioDocument {
             format: FORMAT.to_owned(),
             robot: default_robot(),
             plant: PlantDocument::default(),
-            trajectory: TrajectoryDocument::Paper,
+            trajectory: TrajectoryDocument::default(),
             scheme,
             initial: InitialDocument::default(),
             integration: IntegrationDocument::default(),

@@ -40,6 +40,16 @@ pub enum Problem {
         /// What fixes their number.
         why: &'static str,
     },
+    /// A list that is too long.
+    #[error("has {found} where at most {most} are allowed, {what}")]
+    TooMany {
+        /// Elements given.
+        found: usize,
+        /// Elements allowed.
+        most: usize,
+        /// What they are.
+        what: &'static str,
+    },
     /// A name that means nothing here.
     #[error("{value:?} is not known; allowed: {allowed}")]
     Unknown {

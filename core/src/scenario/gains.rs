@@ -162,7 +162,7 @@ gain_set! {
         lambda_z "Λ_z" "1/s" Joint 0.0..=1e4 = vec![100.0, 50.0, 110.0],
             "Observer: how fast its error decays.";
         lambda_x "Λ_x" "1/s" Joint 0.0..=1e4 = vec![60.0, 80.0, 70.0],
-            "Observer: how strongly the tracking error enters (chosen; the paper omits it).";
+            "Observer: how strongly the tracking error enters (chosen, equal to the paper's Λ; the paper omits it).";
         k_d "K_d" "1/s" Joint 0.0..=1e5 = vec![150.0, 270.0, 300.0],
             "Observer: gain on its error (chosen; the paper omits it).";
         beta "β" "" Scalar 0.0..=1e4 = 5.5,

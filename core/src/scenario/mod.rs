@@ -9,11 +9,13 @@ mod error;
 mod gains;
 mod presets;
 mod report;
+mod tree;
 mod validate;
 
 pub use document::{
-    FORMAT, FrictionDocument, InitialDocument, InitialVelocityDocument, IntegrationDocument, MethodDocument,
-    PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
+    FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument, IntegrationDocument,
+    MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
+    TrajectoryKind,
 };
 pub use error::{Problem, ScenarioError};
 pub use gains::{GainInfo, GainSet, GainShape, ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
@@ -26,6 +28,8 @@ use crate::recording::Recording;
 use crate::robots::{CrsA465, RobotData};
 use crate::simulation::{Settings, Simulation, Snapshot, SnapshotError, StateSpace};
 use serde::{Deserialize, Deserializer};
+use std::ops::ControlFlow;
+use tree::{Tree, TreeDeserializer};
 
 /// A control scheme of the study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -122,38 +126,54 @@ impl<E: std::error::Error> ReadError<E> {
 }
 
 /// Reads any document through any serde format; an error knows where in the document it arose.
+///
+/// A struct is read from a map only, and the order of fields makes no difference.
 pub fn read_document<'de, T, D>(deserializer: D) -> Result<T, ReadError<D::Error>>
 where
-    T: Deserialize<'de>,
+    T: for<'a> Deserialize<'a>,
     D: Deserializer<'de>,
-    D::Error: std::error::Error,
+    D::Error: serde::de::Error,
 {
-    serde_path_to_error::deserialize(deserializer).map_err(|error| {
-        let mut pointer = String::new();
-        for segment in error.path() {
-            use serde_path_to_error::Segment;
-            match segment {
-                Segment::Seq { index } => pointer.extend(["/", &index.to_string()]),
-                Segment::Map { key } => pointer.extend(["/", key]),
-                Segment::Enum { .. } | Segment::Unknown => {}
-            }
+    let tree: Tree = serde_path_to_error::deserialize(deserializer).map_err(at_its_place)?;
+    serde_path_to_error::deserialize(TreeDeserializer::new(tree)).map_err(at_its_place)
+}
+
+/// More of a pointer than this says nothing to anyone; only hostile documents are deeper.
+const DEEPEST_POINTER: usize = 16;
+
+fn at_its_place<E: std::error::Error>(error: serde_path_to_error::Error<E>) -> ReadError<E> {
+    let mut pointer = String::new();
+    for segment in error.path().iter().take(DEEPEST_POINTER) {
+        use serde_path_to_error::Segment;
+        match segment {
+            Segment::Seq { index } => pointer.extend(["/", &index.to_string()]),
+            // RFC 6901: these two characters have a meaning in a pointer.
+            Segment::Map { key } => pointer.extend(["/", &key.replace('~', "~0").replace('/', "~1")]),
+            Segment::Enum { .. } | Segment::Unknown => {}
         }
-        ReadError::Document { pointer, source: error.into_inner() }
-    })
+    }
+    ReadError::Document { pointer, source: error.into_inner() }
 }
 
 impl Scenario {
     /// Checks a document and fills in what it leaves out.
     pub fn new(document: ScenarioDocument) -> Result<Self, ScenarioError> {
         let (document, robot) = validate::resolve(document)?;
-        Ok(Self { document, robot })
+        let scenario = Self { document, robot };
+        let theta = scenario.theta();
+        if theta != robot.theta() && !build::has_positive_inertia(&theta) {
+            let message =
+                "gives an inertia matrix that is not positive definite everywhere: no such arm exists".to_owned();
+            return Err(ScenarioError::new("/plant/theta_scale", Problem::Conflict { message }));
+        }
+        Ok(scenario)
     }
 
     /// Reads and checks a document.
     pub fn read<'de, D>(deserializer: D) -> Result<Self, ReadError<D::Error>>
     where
         D: Deserializer<'de>,
-        D::Error: std::error::Error,
+        D::Error: serde::de::Error,
     {
         Ok(Self::new(read_document(deserializer)?)?)
     }
@@ -187,6 +207,11 @@ impl Scenario {
         blake3::hash(&bytes).to_hex().to_string()
     }
 
+    /// True parameters of the simulated arm, SI units: the robot's, scaled as the plant says.
+    pub fn theta(&self) -> Vec<f64> {
+        build::theta(&self.document, self.robot)
+    }
+
     /// How long, how fine, what is kept.
     pub fn settings(&self) -> Settings {
         build::settings(&self.document, self.robot)
@@ -215,6 +240,17 @@ impl Scenario {
         self.finish(simulation)
     }
 
+    /// Runs to the end, `steps` at a time; between slices `go_on` may look at the run and break it off. `None` if it did.
+    pub fn run_in_slices(&self, steps: u64, go_on: &mut dyn FnMut(&Simulation) -> ControlFlow<()>) -> Option<Run> {
+        let mut simulation = self.start();
+        while !simulation.advance(steps) {
+            if go_on(&simulation).is_break() {
+                return None;
+            }
+        }
+        Some(self.finish(simulation))
+    }
+
     /// The report on a run of this scenario, with its recording. A run that has not ended is reported as far as it came.
     pub fn finish(&self, simulation: Simulation) -> Run {
         let settings = self.settings();
@@ -233,6 +269,7 @@ impl Scenario {
             at_s,
             reason: reason.map(|reason| reason.to_string()),
             metrics: Metrics::of(recording, settings.samples, self.robot, observed, interval_s),
+            theta_true: self.theta(),
             theta_hat_end: simulation.theta_hat().to_vec(),
             q_end_rad: simulation.state()[..self.robot.joint_count()].to_vec(),
             samples: recording.len().min(settings.samples),

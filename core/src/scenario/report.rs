@@ -4,7 +4,7 @@ use crate::metrics::Metrics;
 use crate::simulation::{Divergence, Outcome};
 use serde::{Deserialize, Serialize};
 
-/// What a run gave. Numbers that are not finite appear as null in JSON; only diverged runs can have them.
+/// What a run gave. Every number is finite, also of a diverged run, whose end is its last good state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// `adaptarm.report/1`.
@@ -30,9 +30,11 @@ pub struct Report {
     /// Index, peaks, settling, effort; over the samples before the divergence if it diverged.
     #[serde(flatten)]
     pub metrics: Metrics,
-    /// Estimates at the end of the run.
+    /// True parameters of the simulated arm, which the estimates do not know.
+    pub theta_true: Vec<f64>,
+    /// Estimates at the end of the run, or before the step that diverged.
     pub theta_hat_end: Vec<f64>,
-    /// Joint angles at the end of the run, rad.
+    /// Joint angles at the end of the run, or before the step that diverged, rad.
     pub q_end_rad: Vec<f64>,
     /// Samples recorded.
     pub samples: usize,

@@ -1,6 +1,6 @@
 //! What a scenario may say. Checks a document once and fills in everything it left out.
 
-use super::document::{FORMAT, FrictionDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument};
+use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind};
 use super::error::{Problem, ScenarioError};
 use super::gains::{GainSet, GainShape};
 use crate::robots::{ROBOTS, RobotData, robot};
@@ -20,7 +20,7 @@ pub struct Limits {
     pub inertial_scale: [f64; 2],
     /// Factor on any other parameter.
     pub other_scale: [f64; 2],
-    /// Width of friction's sign, rad/s.
+    /// Width of friction's sign, rad/s, unless it is 0.
     pub friction_width_rad_s: [f64; 2],
     /// Base frequency of a Fourier trajectory, rad/s.
     pub frequency_rad_s: [f64; 2],
@@ -40,7 +40,7 @@ pub const LIMITS: Limits = Limits {
     samples: [1, 200_000],
     inertial_scale: [0.01, 100.0],
     other_scale: [0.0, 100.0],
-    friction_width_rad_s: [0.0, 10.0],
+    friction_width_rad_s: [1e-9, 10.0],
     frequency_rad_s: [1e-3, 100.0],
     angle_deg: [-3600.0, 3600.0],
     harmonics: 50,
@@ -63,7 +63,7 @@ pub(super) fn resolve(mut document: ScenarioDocument) -> Result<(ScenarioDocumen
         return Err(unknown("/robot", &document.robot, &ids.join(", ")));
     };
     resolve_plant(&mut document, robot)?;
-    check_trajectory(&document.trajectory, robot)?;
+    resolve_trajectory(&mut document.trajectory, robot)?;
     resolve_scheme(&mut document.scheme, robot)?;
     resolve_integration(&mut document)?;
     let [fewest, most] = LIMITS.samples.map(|samples| samples as f64);
@@ -79,33 +79,60 @@ fn resolve_plant(document: &mut ScenarioDocument, robot: &RobotData) -> Check {
         let limits = if parameter.inertial { LIMITS.inertial_scale } else { LIMITS.other_scale };
         range(&format!("/plant/theta_scale/{n}"), *factor, limits, "")?;
     }
-    let FrictionDocument::Tanh { width_rad_s } = document.plant.friction;
-    range("/plant/friction/width_rad_s", width_rad_s, LIMITS.friction_width_rad_s, "rad/s")
+    let width_rad_s = document.plant.friction.width_rad_s;
+    if width_rad_s != 0.0 {
+        range(
+            "/plant/friction/width_rad_s",
+            width_rad_s,
+            LIMITS.friction_width_rad_s,
+            "rad/s (or 0 for the true sign)",
+        )?;
+    }
+    Ok(())
 }
 
-fn check_trajectory(trajectory: &TrajectoryDocument, robot: &RobotData) -> Check {
-    match trajectory {
-        TrajectoryDocument::Paper => Ok(()),
-        TrajectoryDocument::Fourier { frequency_rad_s, offset_deg, sine_deg, cosine_deg } => {
-            range("/trajectory/frequency_rad_s", *frequency_rad_s, LIMITS.frequency_rad_s, "rad/s")?;
-            angles("/trajectory/offset_deg", offset_deg)?;
-            length("/trajectory/offset_deg", offset_deg.len(), robot.joint_count(), "one per joint of the robot")?;
-            for (name, rows) in [("sine_deg", sine_deg), ("cosine_deg", cosine_deg)] {
-                let pointer = format!("/trajectory/{name}");
-                if rows.len() > robot.joint_count() {
-                    return length(&pointer, rows.len(), robot.joint_count(), "at most one list per joint");
-                }
-                for (joint, row) in rows.iter().enumerate() {
-                    let pointer = format!("{pointer}/{joint}");
-                    if row.len() > LIMITS.harmonics {
-                        return length(&pointer, row.len(), LIMITS.harmonics, "at most one per harmonic allowed");
-                    }
-                    angles(&pointer, row)?;
+fn resolve_trajectory(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
+    match trajectory.kind {
+        TrajectoryKind::Paper => {
+            let TrajectoryDocument { kind: _, frequency_rad_s, offset_deg, sine_deg, cosine_deg } = trajectory;
+            for (name, given) in [
+                ("frequency_rad_s", frequency_rad_s.is_some()),
+                ("offset_deg", offset_deg.is_some()),
+                ("sine_deg", sine_deg.is_some()),
+                ("cosine_deg", cosine_deg.is_some()),
+            ] {
+                if given {
+                    let message = "has no meaning for kind paper, which is fixed; use kind fourier".to_owned();
+                    return Err(ScenarioError::new(format!("/trajectory/{name}"), Problem::Conflict { message }));
                 }
             }
             Ok(())
         }
+        TrajectoryKind::Fourier => resolve_fourier(trajectory, robot),
     }
+}
+
+fn resolve_fourier(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
+    let joints = robot.joint_count();
+    let frequency_rad_s = *trajectory.frequency_rad_s.get_or_insert(1.0);
+    range("/trajectory/frequency_rad_s", frequency_rad_s, LIMITS.frequency_rad_s, "rad/s")?;
+    let Some(offset_deg) = &trajectory.offset_deg else {
+        let message = "missing; a trajectory of kind fourier needs one angle per joint of the robot".to_owned();
+        return Err(ScenarioError::new("/trajectory/offset_deg", Problem::Conflict { message }));
+    };
+    length("/trajectory/offset_deg", offset_deg.len(), joints, "one per joint of the robot")?;
+    angles("/trajectory/offset_deg", offset_deg)?;
+    for (name, rows) in [("sine_deg", &mut trajectory.sine_deg), ("cosine_deg", &mut trajectory.cosine_deg)] {
+        let pointer = format!("/trajectory/{name}");
+        let rows = rows.get_or_insert_default();
+        at_most(&pointer, rows.len(), joints, "lists: one per joint of the robot")?;
+        for (joint, row) in rows.iter().enumerate() {
+            let pointer = format!("{pointer}/{joint}");
+            at_most(&pointer, row.len(), LIMITS.harmonics, "numbers: one per harmonic")?;
+            angles(&pointer, row)?;
+        }
+    }
+    Ok(())
 }
 
 fn angles(pointer: &str, degrees: &[f64]) -> Check {
@@ -187,6 +214,10 @@ fn unknown(pointer: &str, value: &str, allowed: &str) -> ScenarioError {
     // A hostile name must not make a hostile message.
     let value = value.chars().take(60).collect();
     ScenarioError::new(pointer, Problem::Unknown { value, allowed: allowed.to_owned() })
+}
+
+fn at_most(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
+    if found <= most { Ok(()) } else { Err(ScenarioError::new(pointer, Problem::TooMany { found, most, what })) }
 }
 
 fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Check {

@@ -1,6 +1,7 @@
 //! Simulation: a state space, an integrator and a recording, advanced in slices and resumable to the same bits.
 //!
-//! Knows nothing of scenarios or robots: it sees a [`StateSpace`]. A diverging run is an [`Outcome`], not an error.
+//! Stepping sees only a [`StateSpace`]; [`ClosedLoop`] is the one that a robot and a scheme make. Knows nothing of scenarios.
+//! A diverging run is an [`Outcome`], not an error.
 
 mod closed_loop;
 mod outcome;
@@ -67,6 +68,19 @@ impl Settings {
         i as f64 * self.duration_s / self.samples as f64
     }
 
+    /// Number of samples due before `time_s`.
+    pub fn samples_before(&self, time_s: f64) -> usize {
+        // A good guess, then exact by the very comparison that recording makes.
+        let mut count = ((time_s / self.duration_s * self.samples as f64) as usize).min(self.samples);
+        while count > 0 && self.sample_time_s(count - 1) >= time_s {
+            count -= 1;
+        }
+        while count < self.samples && self.sample_time_s(count) < time_s {
+            count += 1;
+        }
+        count
+    }
+
     /// Number of fixed steps; the last one is shorter where the step does not divide the duration.
     pub fn steps(&self) -> u64 {
         let exact = self.duration_s / self.step_s;
@@ -74,7 +88,8 @@ impl Settings {
         (exact - 1e-9 * exact.max(1.0)).ceil().max(1.0) as u64
     }
 
-    /// Steps after which a run is given up, whatever its method.
+    /// Steps after which a run is given up, whatever its method: an adaptive one may take a hundred times the steps that its
+    /// longest would have made, and 100 000 in any case.
     pub fn most_steps(&self) -> u64 {
         match self.method {
             Method::Rk4 => self.steps(),

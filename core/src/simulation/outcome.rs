@@ -16,7 +16,8 @@ pub enum Divergence {
     NotFinite,
     /// The adaptive integrator needed steps shorter than the clock resolves.
     StepTooSmall,
-    /// The adaptive integrator took this many steps, a hundred times what its longest step would have made, and was not done.
+    /// The adaptive integrator took this many steps and was not done: the problem is too stiff for it, or the tolerances are
+    /// out of reach.
     TooManySteps(u64),
 }
 
@@ -28,7 +29,10 @@ impl fmt::Display for Divergence {
             }
             Self::NotFinite => f.write_str("a state or torque is no longer a finite number"),
             Self::TooManySteps(steps) => {
-                write!(f, "still not done after {steps} adaptive steps: loosen the tolerances")
+                write!(
+                    f,
+                    "too stiff for the adaptive method: not done after {steps} steps; use rk4, a wider friction sign or looser tolerances"
+                )
             }
             Self::StepTooSmall => f.write_str("the adaptive step became too small: too stiff or singular"),
         }

@@ -9,8 +9,8 @@ use crate::recording::Recording;
 enum Stepper {
     /// Every sample falls on the start of a step: `every` steps from one to the next.
     Rk4OnGrid { rk4: Rk4<f64>, every: u64 },
-    /// Samples fall inside steps: the state before the step and the slopes at its ends serve to interpolate.
-    Rk4 { rk4: Rk4<f64>, before: Vec<f64>, slopes: [Vec<f64>; 2] },
+    /// Samples fall inside steps: the slopes at the ends of a step serve to interpolate.
+    Rk4 { rk4: Rk4<f64>, slopes: [Vec<f64>; 2] },
     /// The integrator interpolates.
     Dopri5(Box<Dopri5>),
 }
@@ -22,6 +22,8 @@ pub struct Simulation {
     settings: Settings,
     stepper: Stepper,
     state: Vec<f64>,
+    /// State before the last step; where a run that diverges ends up.
+    before: Vec<f64>,
     /// Work space for the tracking error.
     error: Vec<f64>,
     step: u64,
@@ -38,11 +40,7 @@ impl Simulation {
         let stepper = match settings.method {
             Method::Rk4 => match settings.steps_per_sample() {
                 Some(every) => Stepper::Rk4OnGrid { rk4: Rk4::new(len), every },
-                None => Stepper::Rk4 {
-                    rk4: Rk4::new(len),
-                    before: vec![0.0; len],
-                    slopes: [vec![0.0; len], vec![0.0; len]],
-                },
+                None => Stepper::Rk4 { rk4: Rk4::new(len), slopes: [vec![0.0; len], vec![0.0; len]] },
             },
             Method::Dopri5(tolerances) => {
                 Stepper::Dopri5(Box::new(Dopri5::new(len, tolerances, settings.step_s.min(settings.duration_s))))
@@ -56,6 +54,7 @@ impl Simulation {
             settings,
             stepper,
             state,
+            before: vec![0.0; len],
             error: vec![0.0; settings.columns.joints],
             step: 0,
             time_s: 0.0,
@@ -76,35 +75,76 @@ impl Simulation {
             return Err(SnapshotError::OtherScenario { expected: identity, found: snapshot.identity });
         }
         let mut run = Self::new(identity, system, settings);
-        let (len, width) = (run.state.len(), settings.columns.width());
-        let shape = |what, expected, found| Err(SnapshotError::Shape { what, expected, found });
-        if snapshot.state.len() != len {
-            return shape("state", len, snapshot.state.len());
-        }
-        if !snapshot.rows.len().is_multiple_of(width) || snapshot.rows.len() > width * (settings.samples + 1) {
-            return shape("rows", width, snapshot.rows.len());
-        }
+        run.examine(&snapshot)?;
         run.step = snapshot.step;
         run.time_s = snapshot.time_s;
         run.evaluations = snapshot.evaluations;
         run.state = snapshot.state;
-        run.recorder.recording = Recording::from_rows(settings.columns, snapshot.rows);
+        let (expected, found) = (settings.columns.width(), snapshot.rows.len());
+        run.recorder.recording = Recording::from_rows(settings.columns, snapshot.rows).ok_or(SnapshotError::Shape {
+            what: "rows",
+            expected,
+            found,
+        })?;
         run.outcome = snapshot.outcome;
         if let Stepper::Dopri5(dopri5) = &mut run.stepper {
-            dopri5.step_s = snapshot.next_step_s;
+            dopri5.set_step(snapshot.next_step_s);
         }
         Ok(run)
+    }
+
+    /// Whether a snapshot can have come from this run: shapes, finite numbers, and a time, step and number of rows that belong
+    /// together. A damaged one would end as `completed` with wrong numbers, or never.
+    fn examine(&self, snapshot: &Snapshot) -> Result<(), SnapshotError> {
+        let shape = |what, expected, found| Err(SnapshotError::Shape { what, expected, found });
+        let inconsistent = |what| Err(SnapshotError::Inconsistent(what));
+        let (settings, width) = (&self.settings, self.settings.columns.width());
+        if snapshot.format != Snapshot::FORMAT || snapshot.core_version != crate::VERSION {
+            let found = format!("{} of core {}", snapshot.format, snapshot.core_version);
+            return Err(SnapshotError::OtherVersion { found });
+        }
+        if snapshot.state.len() != self.state.len() {
+            return shape("state", self.state.len(), snapshot.state.len());
+        }
+        if !snapshot.state.iter().chain(&snapshot.rows).all(|x| x.is_finite()) {
+            return inconsistent("numbers that are not finite");
+        }
+        let time_belongs = match &self.stepper {
+            Stepper::Rk4OnGrid { .. } | Stepper::Rk4 { .. } => {
+                snapshot.step <= settings.steps() && snapshot.time_s == settings.step_time_s(snapshot.step)
+            }
+            Stepper::Dopri5(dopri5) => {
+                (0.0..=settings.duration_s).contains(&snapshot.time_s) && dopri5.accepts_step(snapshot.next_step_s)
+            }
+        };
+        if !time_belongs {
+            return inconsistent("time and step");
+        }
+        let due = match &self.stepper {
+            Stepper::Rk4OnGrid { every, .. } => snapshot.step.div_ceil(*every) as usize,
+            _ => settings.samples_before(snapshot.time_s),
+        };
+        let rows = snapshot.rows.len() / width;
+        let rows_belong = match snapshot.outcome {
+            None => rows == due,
+            Some(Outcome::Completed) => rows == due + 1,
+            // The step that diverged keeps no samples.
+            Some(Outcome::Diverged { .. }) => rows <= due,
+        };
+        if rows_belong { Ok(()) } else { inconsistent("time and number of rows") }
     }
 
     /// The run as it stands.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
+            format: Snapshot::FORMAT.to_owned(),
+            core_version: crate::VERSION.to_owned(),
             identity: self.identity.clone(),
             step: self.step,
             time_s: self.time_s,
             next_step_s: match &self.stepper {
                 Stepper::Rk4OnGrid { .. } | Stepper::Rk4 { .. } => self.settings.step_s,
-                Stepper::Dopri5(dopri5) => dopri5.step_s,
+                Stepper::Dopri5(dopri5) => dopri5.step_s(),
             },
             evaluations: self.evaluations,
             state: self.state.clone(),
@@ -173,71 +213,76 @@ impl Simulation {
         self.recorder.recording
     }
 
-    /// One step, its samples, and the check that it led somewhere sensible.
+    /// One step, the check that it led somewhere sensible, and the samples on the way. A step that did not leaves no trace
+    /// but its time: the state stays the last good one.
     fn take_step(&mut self) -> Result<(), Divergence> {
-        let (start_s, duration_s) = (self.time_s, self.settings.duration_s);
         if self.step >= self.settings.most_steps() {
             return Err(Divergence::TooManySteps(self.step));
         }
-        let Self { system, stepper, state, recorder, evaluations, .. } = self;
-        let system = &**system;
-        let rhs = |t: f64, x: &[f64], rate: &mut [f64]| system.derivative(t, x, rate);
-        let end_s = match stepper {
-            Stepper::Rk4OnGrid { rk4, every } => {
+        if let Stepper::Rk4OnGrid { every, .. } = &self.stepper
+            && self.step.is_multiple_of(*every)
+        {
+            self.recorder.record(&*self.system, self.time_s, &self.state)?;
+        }
+        let start_s = self.time_s;
+        self.before.copy_from_slice(&self.state);
+        self.time_s = self.integrate(start_s)?;
+        self.step += 1;
+        check(&*self.system, self.time_s, &self.state, &mut self.error)
+            .and_then(|()| self.sample(start_s, self.time_s))
+            .inspect_err(|_| self.state.copy_from_slice(&self.before))
+    }
+
+    /// Moves the state on from `start_s`; gives the time reached.
+    fn integrate(&mut self, start_s: f64) -> Result<f64, Divergence> {
+        let (system, evaluations) = (&*self.system, &mut self.evaluations);
+        let counted = |t: f64, x: &[f64], rate: &mut [f64]| {
+            *evaluations += 1;
+            system.derivative(t, x, rate);
+        };
+        match &mut self.stepper {
+            Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
                 let end_s = self.settings.step_time_s(self.step + 1);
-                if self.step.is_multiple_of(*every) {
-                    recorder.record(system, start_s, state)?;
-                }
-                rk4.step(start_s, end_s, state, rhs);
-                *evaluations += 4;
-                end_s
+                rk4.step(start_s, end_s, &mut self.state, counted);
+                Ok(end_s)
             }
-            Stepper::Rk4 { rk4, before, slopes } => {
-                let end_s = self.settings.step_time_s(self.step + 1);
-                before.copy_from_slice(state);
-                rk4.step(start_s, end_s, state, rhs);
-                *evaluations += 4;
+            Stepper::Dopri5(dopri5) => dopri5
+                .step(start_s, self.settings.duration_s, &mut self.state, counted)
+                .map_err(|_| Divergence::StepTooSmall),
+        }
+    }
+
+    /// Takes the samples inside the step just made, and the end of the run.
+    fn sample(&mut self, start_s: f64, end_s: f64) -> Result<(), Divergence> {
+        let (system, state, before, recorder) = (&*self.system, &self.state, &self.before, &mut self.recorder);
+        match &mut self.stepper {
+            Stepper::Rk4OnGrid { .. } => {}
+            Stepper::Rk4 { slopes, .. } => {
                 if recorder.is_due_before(end_s) {
-                    rhs(start_s, before, &mut slopes[0]);
-                    rhs(end_s, state, &mut slopes[1]);
-                    *evaluations += 2;
+                    system.derivative(start_s, before, &mut slopes[0]);
+                    system.derivative(end_s, state, &mut slopes[1]);
+                    self.evaluations += 2;
                     recorder.record_before(system, end_s, |t, x| {
                         hermite((t - start_s) / (end_s - start_s), end_s - start_s, [before, state], slopes, x);
                     })?;
                 }
-                end_s
             }
             Stepper::Dopri5(dopri5) => {
-                let counted = |t: f64, x: &[f64], rate: &mut [f64]| {
-                    *evaluations += 1;
-                    rhs(t, x, rate);
-                };
-                let reached = dopri5.step(start_s, duration_s, state, counted);
-                let end_s = reached.map_err(|_| Divergence::StepTooSmall)?;
                 recorder.record_before(system, end_s, |t, x| dopri5.interpolate(t, state, x))?;
-                end_s
             }
-        };
-        self.step += 1;
-        self.time_s = end_s;
-        check(system, end_s, state, &mut self.error)?;
-        if end_s >= duration_s {
-            if !state.iter().all(|x| x.is_finite()) {
-                return Err(Divergence::NotFinite);
-            }
-            recorder.record(system, end_s, state)?;
         }
-        Ok(())
+        if end_s >= self.settings.duration_s { recorder.record(system, end_s, state) } else { Ok(()) }
     }
 }
 
-/// Whether the run is still near its trajectory. A NaN anywhere reaches the joint angles within a step, so they are enough.
+/// Whether the state is finite and near its trajectory.
 fn check(system: &dyn StateSpace<f64>, time_s: f64, x: &[f64], error: &mut [f64]) -> Result<(), Divergence> {
+    // No early end: without a branch per number this costs next to nothing.
+    if x.iter().fold(false, |bad, x| bad | !x.is_finite()) {
+        return Err(Divergence::NotFinite);
+    }
     system.tracking_error(time_s, x, error);
     for (joint, e) in error.iter().enumerate() {
-        if !e.is_finite() {
-            return Err(Divergence::NotFinite);
-        }
         if e.abs() > TRACKING_ERROR_LIMIT_RAD {
             return Err(Divergence::TrackingError(joint + 1));
         }

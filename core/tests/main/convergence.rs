@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 /// A smooth problem, so that the order shows at the steps used: wide friction, a short run.
 fn smooth(scheme: Scheme, step_s: f64) -> ScenarioDocument {
     let mut document = scheme.paper();
-    document.plant.friction = FrictionDocument::Tanh { width_rad_s: 1.0 };
+    document.plant.friction = FrictionDocument { width_rad_s: 1.0, ..FrictionDocument::default() };
     document.integration.duration_s = 0.5;
     document.integration.step_s = step_s;
     document.recording.samples = 50;
@@ -145,6 +145,31 @@ fn a_free_arm_keeps_its_energy() {
         });
     }
     assert!((energy(&x) - start).abs() < 1e-9 * start.abs().max(1.0), "{} {start}", energy(&x));
+}
+
+/// However a run diverges, what it leaves is finite and within the limit, on the grid of samples and off it.
+#[test]
+fn what_precedes_a_divergence_is_sane() {
+    use adaptarm_core::recording::Signal;
+    for samples in [20, 3000] {
+        for method in [MethodDocument::Rk4, MethodDocument::Dopri5] {
+            let mut document = Scheme::TangArteaga.paper();
+            document.integration.step_s = 0.05;
+            document.integration.duration_s = 1.0;
+            document.integration.method = method;
+            document.recording.samples = samples;
+            let run = Scenario::new(document).unwrap().run();
+            assert_eq!(run.report.at_s.is_some(), method == MethodDocument::Rk4);
+            for joint in 0..3 {
+                let peak = adaptarm_core::metrics::peak(run.recording.signal(Signal::Error, joint));
+                assert!(peak <= adaptarm_core::simulation::TRACKING_ERROR_LIMIT_RAD, "{peak}");
+            }
+            assert!(run.report.theta_hat_end.iter().chain(&run.report.q_end_rad).all(|x| x.is_finite()));
+            let again: adaptarm_core::scenario::Report =
+                serde_json::from_str(&serde_json::to_string(&run.report).unwrap()).unwrap();
+            assert_eq!(again, run.report);
+        }
+    }
 }
 
 /// Gains that cannot work end in a divergence with time and reason, and keep what was recorded before.

@@ -23,6 +23,13 @@ fn what_is_left_out_is_the_papers() {
     assert_eq!(partial.hash(), minimal.hash(), "the order of fields and naming a default must not matter");
 }
 
+/// A field added without care would change every hash ever published (docs/decisions/0003-hashes.md).
+#[test]
+fn the_hash_of_a_scenario_stays() {
+    let hash = Scenario::new(Scheme::Proposed.paper()).unwrap().hash();
+    assert_eq!(hash, "9a68d85787ed9c43ab37380c584ac0a7b8fc7d39b7174110e1b0fe21e1358a54");
+}
+
 #[test]
 fn presets_are_allowed_and_differ() {
     let mut hashes: Vec<_> = PRESETS.iter().map(|preset| Scenario::new(preset.document()).unwrap().hash()).collect();
@@ -77,6 +84,11 @@ fn refusals_name_field_value_and_range() {
         (with(r#","robot":"puma""#), "/robot", "\"puma\" is not known; allowed: crs_a465"),
         (with(r#","plant":{"theta_scale":[1,2,3]}"#), "/plant/theta_scale", "has 3 numbers where 18 are needed"),
         (
+            with(r#","plant":{"theta_scale":[100,100,100,100,100,100,100,0.1,0.1,0.1,1,1,1,1,1,1,1,1]}"#),
+            "/plant/theta_scale",
+            "not positive definite",
+        ),
+        (
             with(r#","trajectory":{"kind":"fourier","offset_deg":[0,90]}"#),
             "/trajectory/offset_deg",
             "has 2 numbers where 3 are needed",
@@ -84,7 +96,7 @@ fn refusals_name_field_value_and_range() {
         (
             with(r#","trajectory":{"kind":"fourier","offset_deg":[0,90,-90],"sine_deg":[[1],[2],[3],[4]]}"#),
             "/trajectory/sine_deg",
-            "has 4 numbers where 3 are needed",
+            "has 4 where at most 3 are allowed",
         ),
         (with(r#","seed":1,"seed":2"#), "", "duplicate field `seed`"),
         (with("").replace("scenario/1", "scenario/2"), "/format", "allowed: adaptarm.scenario/1"),
@@ -92,7 +104,32 @@ fn refusals_name_field_value_and_range() {
         (r#"{"format":"adaptarm.scenario/1"}"#.to_owned(), "", "missing field `scheme`"),
         ("not json".to_owned(), "", "expected"),
         (String::new(), "", "EOF while parsing"),
-        ("[".repeat(100_000), "/0", "invalid type: sequence"),
+        ("[".repeat(100_000), "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0", "recursion limit exceeded"),
+        (r#"["adaptarm.scenario/1"]"#.to_owned(), "", "invalid type: sequence"),
+        (with(r#","integration":["rk4",0.001,12]"#), "/integration", "invalid type: sequence"),
+        (with(r#","trajectory":{"kind":"paper","frequency_rad_s":2}"#), "/trajectory/frequency_rad_s", "kind paper"),
+        (with(r#","trajectory":{"kind":"paper","foo":2}"#), "/trajectory/foo", "unknown field `foo`"),
+        (with(r#","trajectory":{"kind":"fourier"}"#), "/trajectory/offset_deg", "missing"),
+        (
+            with(r#","trajectory":{"sine_deg":[[1,"a"]],"offset_deg":[0,90,-90],"kind":"fourier"}"#),
+            "/trajectory/sine_deg/0/1",
+            "invalid type: string",
+        ),
+        (
+            with(r#","plant":{"friction":{"width_rad_s":"wide"}}"#),
+            "/plant/friction/width_rad_s",
+            "invalid type: string",
+        ),
+        (
+            with(r#","plant":{"friction":{"width_rad_s":1e-310}}"#),
+            "/plant/friction/width_rad_s",
+            "or 0 for the true sign",
+        ),
+        (
+            r#"{"scheme":{"gains":{"k_s":[1,2,"z"]},"kind":"slotine_li"},"format":"adaptarm.scenario/1"}"#.to_owned(),
+            "/scheme/gains/k_s/2",
+            "invalid type: string",
+        ),
     ];
     for (text, pointer, message) in cases {
         let error = read(&text).expect_err(&text);
@@ -115,12 +152,33 @@ proptest! {
         document.integration.duration_s = duration;
         document.recording.samples = samples;
         document.plant.theta_scale = Some(vec![factor; 18]);
-        document.plant.friction = adaptarm_core::scenario::FrictionDocument::Tanh { width_rad_s: width };
+        document.plant.friction = adaptarm_core::scenario::FrictionDocument { width_rad_s: width, ..Default::default() };
         document.scheme = adaptarm_core::scenario::SchemeDocument::SlotineLi(Some(
             adaptarm_core::scenario::SlotineLiGains { k_s: vec![gain; 3], ..Default::default() },
         ));
         if let Ok(scenario) = Scenario::new(document) {
             scenario.start().advance(100);
+        }
+    }
+
+    /// Nor does a document with bytes changed, doubled or cut out.
+    #[test]
+    fn no_damaged_text_panics(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, prop::sample::select(b"0129-.eE+{}[]\",:_ aknul\\".to_vec())), 1..8),
+        scheme in prop::sample::select(Scheme::ALL.to_vec()),
+    ) {
+        let mut text = serde_json::to_vec(Scenario::new(scheme.paper()).unwrap().document()).unwrap();
+        for (place, edit, byte) in edits {
+            let place = place.index(text.len());
+            match edit {
+                0 => text[place] = byte,
+                1 => text.insert(place, byte),
+                _ => { text.remove(place); }
+            }
+        }
+        match Scenario::read(&mut serde_json::Deserializer::from_slice(&text)) {
+            Ok(scenario) => { scenario.start().advance(5); }
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
         }
     }
 

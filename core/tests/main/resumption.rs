@@ -69,18 +69,39 @@ fn a_finished_run_resumes_as_finished() {
     assert_eq!(scenario.finish(again), scenario.run());
 }
 
+/// A way to spoil a snapshot.
+type Damage = fn(&mut Snapshot);
+
 #[test]
 fn a_foreign_or_damaged_snapshot_is_refused() {
-    let scenario = short(Scheme::SlotineLi, |_| {});
-    let mut simulation = scenario.start();
-    simulation.advance(10);
-    let snapshot = simulation.snapshot();
-    let other = short(Scheme::TangArteaga, |_| {});
-    assert!(matches!(other.resume(snapshot.clone()), Err(SnapshotError::OtherScenario { .. })));
-    let mut damaged = snapshot.clone();
-    damaged.state.pop();
-    assert!(matches!(scenario.resume(damaged), Err(SnapshotError::Shape { what: "state", .. })));
-    let mut damaged = snapshot;
-    damaged.rows.pop();
-    assert!(matches!(scenario.resume(damaged), Err(SnapshotError::Shape { what: "rows", .. })));
+    let adaptive = |document: &mut ScenarioDocument| document.integration.method = MethodDocument::Dopri5;
+    let refusals: [(&str, Damage); 9] = [
+        ("numbers where", |snapshot| snapshot.state.truncate(5)),
+        ("numbers where", |snapshot| snapshot.rows.push(1.0)),
+        ("number of rows", |snapshot| snapshot.rows.clear()),
+        ("not finite", |snapshot| snapshot.state[3] = f64::NAN),
+        ("time and", |snapshot| snapshot.time_s = 0.3),
+        ("time and", |snapshot| snapshot.time_s = f64::NAN),
+        ("number of rows", |snapshot| snapshot.outcome = Some(adaptarm_core::simulation::Outcome::Completed)),
+        ("of core 0.0.1", |snapshot| snapshot.core_version = "0.0.1".to_owned()),
+        ("belongs to scenario", |snapshot| snapshot.identity = "another".to_owned()),
+    ];
+    for scenario in [short(Scheme::SlotineLi, |_| {}), short(Scheme::SlotineLi, adaptive)] {
+        let mut simulation = scenario.start();
+        simulation.advance(10);
+        let good = simulation.snapshot();
+        assert!(scenario.resume(good.clone()).is_ok());
+        for (said, damage) in refusals {
+            let mut damaged = good.clone();
+            damage(&mut damaged);
+            let error = scenario.resume(damaged).err().map(|error: SnapshotError| error.to_string());
+            assert!(error.as_ref().is_some_and(|error| error.contains(said)), "{said}: {error:?}");
+        }
+    }
+    let scenario = short(Scheme::SlotineLi, adaptive);
+    for step_s in [f64::NAN, -1.0, 0.0, 1.0] {
+        let mut damaged = scenario.start().snapshot();
+        damaged.next_step_s = step_s;
+        assert!(scenario.resume(damaged).is_err(), "{step_s}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Jobs over the wire.
 
 use crate::document::brief;
-use crate::jobs::{Job, JobKind, JobState, STUDY_LIMITS, Study, StudyResult};
+use crate::jobs::{Job, JobKind, JobState, STUDY_LIMITS, Study, StudyError, StudyResult};
 use adaptarm_core::scenario::{Problem, Report, ScenarioDocument, ScenarioError};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -30,12 +30,11 @@ pub struct StudySpec {
 
 impl JobRequest {
     /// Checks everything in it.
-    pub fn check(self) -> Result<(Study, Option<String>), ScenarioError> {
+    pub fn check(self) -> Result<(Study, Option<String>), StudyError> {
         if let Some(label) = &self.label {
             let (found, most) = (label.chars().count(), STUDY_LIMITS.label_chars);
             if found > most {
-                let message = format!("has {found} characters; at most {most} are kept");
-                return Err(ScenarioError::new("/label", Problem::Conflict { message }));
+                return Err(ScenarioError::new("/label", Problem::TooMany { found, most, what: "characters" }).into());
             }
         }
         Ok((Study::new(self.spec.scenarios, "/spec/scenarios")?, self.label))

@@ -2,12 +2,14 @@
 
 pub mod catalog;
 pub mod jobs;
+pub mod series;
 
 use crate::config::DOCUMENT_BYTES;
 use crate::document;
 use crate::error::Problem;
 use axum::body::{Body, Bytes};
-use axum::extract::{FromRequest, Request};
+use axum::extract::{FromRequest, FromRequestParts, Path, Request};
+use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
 use http_body_util::{BodyExt, LengthLimitError, Limited};
 use serde::de::DeserializeOwned;
@@ -36,6 +38,21 @@ impl<T: DeserializeOwned, S: Sync> FromRequest<S> for Json<T> {
         }
         let bytes = read_body(&parts.headers, body).await?;
         Ok(Self(document::parse(&bytes)?))
+    }
+}
+
+/// The name in a request's path.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Name(pub String);
+
+impl<S: Send + Sync> FromRequestParts<S> for Name {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let name = Path::from_request_parts(parts, state).await;
+        // All that a string can fail at.
+        let detail = "the path, with its percent-encoding undone, is not UTF-8 text";
+        name.map(|Path(name)| Self(name)).map_err(|error| Problem::status(error.status(), detail))
     }
 }
 

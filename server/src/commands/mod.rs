@@ -6,9 +6,9 @@ mod serve;
 
 use crate::document::brief;
 use crate::replicate::{BadSettings, ReplicateArgs, replicate};
+use crate::stdout::PrintError;
 use clap::{Parser, Subcommand};
 use std::fmt::Display;
-use std::io;
 use std::process::ExitCode;
 
 const EXIT_CODES: &str = "\
@@ -85,15 +85,9 @@ impl Failure {
     }
 }
 
-/// Prints to standard output; nobody reading it any more is no failure.
-pub fn print(text: &str) -> Result<(), Failure> {
-    use io::Write;
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::system(format!("cannot write to standard output: {error}")))
-        }
-        _ => Ok(()),
+impl From<PrintError> for Failure {
+    fn from(error: PrintError) -> Self {
+        Self::system(error)
     }
 }
 

@@ -1,6 +1,7 @@
 //! `adaptarm presets`: the scenarios that have a name.
 
-use super::{Failure, print};
+use super::Failure;
+use crate::stdout::print;
 use adaptarm_core::scenario::{PRESETS, Preset, Scenario, preset};
 use clap::Args;
 
@@ -17,9 +18,10 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.show {
-        Some(name) => print(&document(&scenario(name)?)?),
-        None => print(&list()),
+        Some(name) => print(&document(&scenario(name)?)?)?,
+        None => print(&list())?,
     }
+    Ok(())
 }
 
 /// The scenario of a preset.

@@ -1,12 +1,14 @@
 //! `adaptarm run`: one scenario in, one report out.
 
-use super::{Failure, presets, print};
+use super::{Failure, presets};
 use crate::document::{FileError, parse_scenario, read_bounded, read_file};
+use crate::stdout::print;
 use adaptarm_core::scenario::{Run, Scenario};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -26,6 +28,10 @@ Examples:
 A scenario may be as short as {\"format\": \"adaptarm.scenario/1\", \"scheme\": {\"kind\": \"proposed\"}}:
 whatever it leaves out is as in the paper.
 
+The table (--csv) has a row for each of the k samples and, if the run completed, one more for its
+end; indices and peaks count the k samples only. Its columns z_deg_* mean something only for a
+scheme with an observer; elsewhere they are the distance from the start.
+
 Exit codes:
   0  simulated to the end, or until it diverged: the report's `outcome` tells which
   1  the scenario could not be read, or the result not written
@@ -37,7 +43,7 @@ pub(super) struct Arguments {
     /// Run the preset of this name instead; `adaptarm presets` lists them.
     #[arg(long, value_name = "NAME", conflicts_with = "scenario")]
     preset: Option<String>,
-    /// Also write every sample to this file, as comma-separated values.
+    /// Also write the samples to this file, as comma-separated values.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     /// Print the report on one line.
@@ -46,6 +52,10 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.csv.as_deref().is_some_and(|path| path.as_os_str() == "-") {
+        let message = "--csv -: standard output carries the report; name a file (./- for one called that)";
+        return Err(Failure::input(message));
+    }
     let scenario = match (&arguments.preset, &arguments.scenario) {
         (Some(name), _) => presets::scenario(name)?,
         (None, Some(path)) => read(path)?,
@@ -60,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         table.write(&recording.to_csv())?;
     }
     let text = if arguments.compact { serde_json::to_string(&report) } else { serde_json::to_string_pretty(&report) };
-    print(&(text.map_err(Failure::system)? + "\n"))
+    Ok(print(&(text.map_err(Failure::system)? + "\n"))?)
 }
 
 fn read(path: &Path) -> Result<Scenario, Failure> {
@@ -80,18 +90,19 @@ fn read(path: &Path) -> Result<Scenario, Failure> {
 fn simulate(scenario: &Scenario) -> Run {
     let started = Instant::now();
     let mut bar: Option<ProgressBar> = None;
-    let mut simulation = scenario.start();
-    while !simulation.advance(SLICE_STEPS) {
+    let run = scenario.run_in_slices(SLICE_STEPS, &mut |simulation| {
         if started.elapsed() > PATIENCE {
             // Draws on standard error, and only if that is a terminal.
             let bar = bar.get_or_insert_with(|| progress_bar(scenario.settings().duration_s));
             bar.set_position((simulation.progress() * 1000.0) as u64);
         }
-    }
+        ControlFlow::Continue(())
+    });
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }
-    scenario.finish(simulation)
+    // Only the closure above could break it off, and it never does.
+    run.expect("a run that nobody breaks off ends")
 }
 
 fn progress_bar(duration_s: f64) -> ProgressBar {

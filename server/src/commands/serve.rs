@@ -1,9 +1,10 @@
 //! `adaptarm serve`: binds, announces the address, serves until told to stop, and lets answers under way finish.
 
-use super::{Failure, print};
+use super::Failure;
 use crate::config::{Capacity, Config};
 use crate::guard::Hosts;
 use crate::state::AppState;
+use crate::stdout::print;
 use crate::{listener, router, telemetry};
 use clap::Args;
 use std::net::{SocketAddr, ToSocketAddrs};
@@ -23,7 +24,7 @@ pub(super) struct Arguments {
     /// Address and port to listen on; port 0 means any free one.
     #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8080", env = "ADAPTARM_BIND", value_parser = address)]
     bind: SocketAddr,
-    /// Folder for what must outlive the process; made if it does not exist.
+    /// Folder reserved for results, made if it does not exist: this version keeps jobs in memory and stores nothing in it.
     #[arg(long, value_name = "DIR", env = "ADAPTARM_DATA")]
     data: Option<PathBuf>,
 }

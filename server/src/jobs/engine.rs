@@ -5,9 +5,11 @@
 
 use super::{Ending, Job, JobKind, JobStore, Order, StoreError, Study, StudyResult};
 use adaptarm_core::scenario::{Run, Scenario};
+use adaptarm_core::simulation::Simulation;
 use anyhow::Context;
 use rayon::ThreadPool;
 use std::any::Any;
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -25,8 +27,8 @@ const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 /// Jobs with tasks on the pool, canceled ones included: their tasks go only when a thread comes past them.
 const MOST_EXECUTIONS: usize = 256;
 
-/// Simulates a scenario; calls back with the share done and stops when told to. Tests put others in its place.
-pub type Simulate = fn(&Scenario, &mut dyn FnMut(f64) -> Order) -> Result<Option<Run>, String>;
+/// Simulates a scenario, looking up now and then; `None` if it was broken off there. Tests put others in its place.
+pub type Simulate = fn(&Scenario, &mut dyn FnMut(&Simulation) -> ControlFlow<()>) -> Option<Run>;
 
 /// The pool that jobs run on.
 #[derive(Clone)]
@@ -42,6 +44,7 @@ pub struct Engine {
 impl Engine {
     /// An engine with a thread per processor.
     pub fn new(store: Arc<dyn JobStore>) -> anyhow::Result<Self> {
+        let simulate: Simulate = |scenario, look| scenario.run_in_slices(SLICE_STEPS, look);
         Self::with(store, simulate, available_parallelism().map_or(1, usize::from))
     }
 
@@ -120,22 +123,21 @@ impl Execution {
         }
         let mut reported = Instant::now();
         let run = catch_unwind(AssertUnwindSafe(|| {
-            (self.simulate)(&self.study.scenarios()[n], &mut |share| {
+            (self.simulate)(&self.study.scenarios()[n], &mut |simulation| {
                 if reported.elapsed() < REPORT_INTERVAL {
-                    return self.order();
+                    return self.order().into();
                 }
                 reported = Instant::now();
-                self.report(n, share)
+                self.report(n, simulation.progress()).into()
             })
         }));
         let failure = match run {
-            Ok(Ok(Some(run))) => {
+            Ok(Some(run)) => {
                 self.runs.lock().unwrap_or_else(PoisonError::into_inner)[n] = Some(run);
                 self.report(n, 1.0);
                 None
             }
-            Ok(Ok(None)) => None,
-            Ok(Err(reason)) => Some(format!("scenario {n}: {reason}")),
+            Ok(None) => None,
             Err(panic) => Some(format!("scenario {n} made the simulation fail: {}", words(&*panic))),
         };
         if let Some(reason) = failure {
@@ -184,17 +186,6 @@ impl Execution {
             Order::Continue
         })
     }
-}
-
-/// Runs a scenario in slices. `None` if it was told to stop.
-fn simulate(scenario: &Scenario, go_on: &mut dyn FnMut(f64) -> Order) -> Result<Option<Run>, String> {
-    let mut simulation = scenario.start();
-    while !simulation.advance(SLICE_STEPS) {
-        if go_on(simulation.progress()) == Order::Stop {
-            return Ok(None);
-        }
-    }
-    Ok(Some(scenario.finish(simulation)))
 }
 
 /// What a panic said.

@@ -11,7 +11,7 @@ mod study;
 pub use engine::{Engine, Simulate};
 pub use memory::MemoryStore;
 pub use store::{Ending, JobStore, Order, StoreError};
-pub use study::{STUDY_LIMITS, Study, StudyLimits, StudyResult};
+pub use study::{STUDY_LIMITS, Study, StudyError, StudyLimits, StudyResult};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};

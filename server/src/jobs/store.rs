@@ -5,6 +5,7 @@
 
 use super::{Job, Study, StudyResult};
 use async_trait::async_trait;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use thiserror::Error;
 use uuid::Uuid;
@@ -24,6 +25,15 @@ pub enum Order {
     Continue,
     /// Stop; what was computed is not wanted any more.
     Stop,
+}
+
+impl From<Order> for ControlFlow<()> {
+    fn from(order: Order) -> Self {
+        match order {
+            Order::Continue => Self::Continue(()),
+            Order::Stop => Self::Break(()),
+        }
+    }
 }
 
 /// How work on a job ended.

@@ -3,6 +3,7 @@
 use adaptarm_core::recording::Recording;
 use adaptarm_core::scenario::{Problem, Report, Run, Scenario, ScenarioDocument, ScenarioError};
 use serde::Serialize;
+use thiserror::Error;
 
 /// Limits on one study, beside those on each scenario. All are inclusive.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -21,6 +22,26 @@ pub struct StudyLimits {
 pub const STUDY_LIMITS: StudyLimits =
     StudyLimits { scenarios: [1, 64], steps: 1_000_000_000, samples: 400_000, label_chars: 200 };
 
+/// Why there is no such study.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StudyError {
+    /// Something in its document is wrong.
+    #[error(transparent)]
+    Document(#[from] ScenarioError),
+    /// It would be more work, or more to keep, than one study may be.
+    #[error("the study has {total} {what}; a study may have at most {most}")]
+    TooMuch {
+        /// JSON pointer to the scenarios.
+        pointer: String,
+        /// What there is too much of, over all scenarios together.
+        what: &'static str,
+        /// How much there is.
+        total: u64,
+        /// How much there may be.
+        most: u64,
+    },
+}
+
 /// Scenarios that have been checked, one by one and together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
@@ -29,32 +50,24 @@ pub struct Study {
 
 impl Study {
     /// Checks documents that a larger document holds at `pointer`.
-    pub fn new(documents: Vec<ScenarioDocument>, pointer: &str) -> Result<Self, ScenarioError> {
+    pub fn new(documents: Vec<ScenarioDocument>, pointer: &str) -> Result<Self, StudyError> {
         let [fewest, most] = STUDY_LIMITS.scenarios;
-        let (count, limits) = (documents.len(), STUDY_LIMITS.scenarios.map(|count| count as f64));
-        if !(fewest..=most).contains(&count) {
-            let [min, max] = limits;
+        let count = documents.len();
+        if count < fewest {
+            let [min, max] = STUDY_LIMITS.scenarios.map(|count| count as f64);
             let problem = Problem::OutOfRange { value: count as f64, min, max, unit: "scenarios" };
-            return Err(ScenarioError::new(pointer, problem));
+            return Err(ScenarioError::new(pointer, problem).into());
         }
+        check_total(pointer, "scenarios", count as u64, most as u64)?;
         let mut scenarios = Vec::with_capacity(count);
         for (n, document) in documents.into_iter().enumerate() {
             scenarios.push(Scenario::new(document).map_err(|error| error.within(&format!("{pointer}/{n}")))?);
         }
         let study = Self { scenarios };
-        study.check_total(pointer, "integration steps", study.steps() as f64, STUDY_LIMITS.steps as f64)?;
+        check_total(pointer, "integration steps", study.steps(), STUDY_LIMITS.steps)?;
         let samples: usize = study.scenarios.iter().map(|scenario| scenario.settings().samples).sum();
-        study.check_total(pointer, "samples", samples as f64, STUDY_LIMITS.samples as f64)?;
+        check_total(pointer, "samples", samples as u64, STUDY_LIMITS.samples as u64)?;
         Ok(study)
-    }
-
-    fn check_total(&self, pointer: &str, what: &str, total: f64, most: f64) -> Result<(), ScenarioError> {
-        if total <= most {
-            return Ok(());
-        }
-        let count = self.scenarios.len();
-        let message = format!("{count} scenarios have {total:.3e} {what} together; a study may have {most:.0e}");
-        Err(ScenarioError::new(pointer, Problem::Conflict { message }))
     }
 
     /// The scenarios, in the order of the result.
@@ -66,6 +79,10 @@ impl Study {
     pub fn steps(&self) -> u64 {
         self.scenarios.iter().map(|scenario| scenario.settings().steps()).sum()
     }
+}
+
+fn check_total(pointer: &str, what: &'static str, total: u64, most: u64) -> Result<(), StudyError> {
+    if total <= most { Ok(()) } else { Err(StudyError::TooMuch { pointer: pointer.to_owned(), what, total, most }) }
 }
 
 /// What a study gave.
@@ -103,12 +120,12 @@ mod tests {
     fn refuses_too_few_too_many_and_too_much_together() {
         let paper = Scheme::SlotineLi.paper();
         assert_eq!(refusal(vec![]), "spec.scenarios: 0 is outside the allowed range 1 to 64 scenarios");
-        assert!(refusal(vec![paper.clone(); 65]).contains("65 is outside"));
+        assert!(refusal(vec![paper.clone(); 65]).contains("65 scenarios; a study may have at most 64"));
         let mut long = paper.clone();
         long.integration.duration_s = 90_000.0;
-        assert!(refusal(vec![long; 64]).contains("integration steps together"));
+        assert!(refusal(vec![long; 64]).contains("integration steps; a study may have at most 1000000000"));
         let mut fine = paper;
         fine.recording.samples = 200_000;
-        assert!(refusal(vec![fine; 3]).contains("6.000e5 samples together"));
+        assert!(refusal(vec![fine; 3]).contains("600000 samples"));
     }
 }

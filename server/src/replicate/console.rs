@@ -1,24 +1,17 @@
 //! The replication on the terminal: plain text that survives being piped into a file.
 
-use super::Replication;
+use super::{Replication, cells};
+use crate::stdout;
 use adaptarm_core::experiments::replication::{IndexTable, OBSERVER_PEAKS_DEG, Verdict};
+use adaptarm_core::scenario::Scheme;
 use anyhow::Result;
 use std::fmt::Write as _;
-use std::io::Write as _;
 
 /// Prints everything but the figures.
 pub(super) fn print(replication: &Replication) -> Result<()> {
     let mut text = String::new();
     compose(replication, &mut text)?;
-    print_line(text.trim_end())
-}
-
-/// Prints a line; a reader that has gone away is no error.
-pub(super) fn print_line(line: &str) -> Result<()> {
-    match writeln!(std::io::stdout(), "{line}") {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        other => Ok(other?),
-    }
+    Ok(stdout::print(&text)?)
 }
 
 fn compose(replication: &Replication, text: &mut String) -> std::fmt::Result {
@@ -29,12 +22,14 @@ fn compose(replication: &Replication, text: &mut String) -> std::fmt::Result {
         }
     }
     for table in &replication.tables {
-        compose_table(table, text)?;
+        compose_table(replication, table, text)?;
     }
     if let Some(peaks) = &replication.runs[0].report.metrics.z_peak_deg {
         writeln!(text, "Peak observer error [°], proposed scheme (K_d is calibrated to the paper's: no evidence)")?;
+        let diverged = replication.diverged(Scheme::Proposed.id());
         for (joint, (ours, paper)) in peaks.iter().zip(OBSERVER_PEAKS_DEG).enumerate() {
-            writeln!(text, "  z{}  ours {ours:.5}  paper {paper:.3}  ratio {:.3}", joint + 1, ours / paper)?;
+            let (cell, ratio) = (cells::ours(diverged, *ours), cells::ratio(diverged, ours / paper, 3));
+            writeln!(text, "  z{}  ours {cell}  paper {paper:.3}  ratio {ratio}", joint + 1)?;
         }
         writeln!(text)?;
     }
@@ -43,6 +38,7 @@ fn compose(replication: &Replication, text: &mut String) -> std::fmt::Result {
         let verdict = match claim.verdict {
             Verdict::Holds => "HOLDS        ",
             Verdict::DoesNotHold => "DOES NOT HOLD",
+            Verdict::NotTested => "NOT TESTED   ",
         };
         writeln!(text, "  {verdict}  {}", claim.claim)?;
         writeln!(text, "                 criterion: {}", claim.criterion)?;
@@ -52,22 +48,23 @@ fn compose(replication: &Replication, text: &mut String) -> std::fmt::Result {
     for assumption in replication.assumptions {
         writeln!(text, "  {}: paper {}; here {}", assumption.about, assumption.paper, assumption.here)?;
     }
-    writeln!(text)
+    Ok(())
 }
 
-fn compose_table(table: &IndexTable, text: &mut String) -> std::fmt::Result {
+fn compose_table(replication: &Replication, table: &IndexTable, text: &mut String) -> std::fmt::Result {
     writeln!(text, "Table {}. {} [{}]", table.number, table.title, table.unit)?;
     writeln!(text, "  {:<18}{:>7}{:>12}{:>12}{:>10}", "", "joint", "ours", "paper", "ratio")?;
-    for (_, name, entries) in &table.rows {
+    for (scheme, name, entries) in &table.rows {
+        let diverged = replication.diverged(scheme);
         for (joint, entry) in entries.iter().enumerate() {
             let name = if joint == 0 { name } else { "" };
             writeln!(
                 text,
-                "  {name:<18}{:>7}{:>12.5}{:>12.5}{:>10.1}",
+                "  {name:<18}{:>7}{:>12}{:>12.5}{:>10}",
                 joint + 1,
-                entry.ours,
+                cells::ours(diverged, entry.ours),
                 entry.paper,
-                entry.ratio
+                cells::ratio(diverged, entry.ratio, 1)
             )?;
         }
     }

@@ -37,6 +37,7 @@ fn draw(replication: &Replication) -> Result<Vec<(Figure, String)>> {
             scheme: scenario.scheme(),
             recording: &run.recording,
             completed: run.report.at_s.is_none(),
+            theta_true: &run.report.theta_true,
         })
         .collect();
     Figure::ALL.into_iter().map(|figure| Ok((figure, figure_svg(figure, robot, &runs, Theme::Light)?))).collect()

@@ -1,8 +1,9 @@
 //! The replication as one HTML page that needs nothing else: styles and figures are inside.
 
-use super::Replication;
+use super::{Replication, cells};
 use adaptarm_core::experiments::replication::{IndexTable, OBSERVER_PEAKS_DEG, Verdict};
 use adaptarm_core::figures::Figure;
+use adaptarm_core::scenario::Scheme;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("report.css");
@@ -24,7 +25,7 @@ pub(super) fn page(replication: &Replication, figures: &[(Figure, String)]) -> S
                     p.lead { "Three controllers on the first three joints of a CRS A465. " (replication.settings()) ". Core version " (replication.core_version) "." }
                     (outcomes(replication))
                     h2 { "Tables" }
-                    @for table in &replication.tables { (index_table(table)) }
+                    @for table in &replication.tables { (index_table(replication, table)) }
                     (observer_peaks(replication))
                     h2 { "Claims of the paper" }
                     p { "Each with our criterion and the numbers behind the verdict; a verdict holds for these settings only." }
@@ -48,13 +49,13 @@ fn outcomes(replication: &Replication) -> Markup {
     html! {
         @for report in &replication.reports {
             @if let (Some(at_s), Some(reason)) = (report.at_s, &report.reason) {
-                p.bad role="note" { (report.scheme) " diverged at " (at_s) " s: " (reason) ". Its numbers cover the time before." }
+                p.bad role="note" { (report.scheme) " diverged at " (at_s) " s: " (reason) ". Its numbers up to then are in report.json; in the tables below they would say nothing." }
             }
         }
     }
 }
 
-fn index_table(table: &IndexTable) -> Markup {
+fn index_table(replication: &Replication, table: &IndexTable) -> Markup {
     html! {
         div.scroll { table {
             caption { "Table " (table.number) ". " (table.title) " [" (table.unit) "]" }
@@ -66,13 +67,14 @@ fn index_table(table: &IndexTable) -> Markup {
                 tr { @for _ in 1..=3 { th scope="col" { "ours" } th scope="col" { "paper" } th scope="col" { "ratio" } } }
             }
             tbody {
-                @for (_, name, entries) in &table.rows {
+                @for (scheme, name, entries) in &table.rows {
+                    @let diverged = replication.diverged(scheme);
                     tr {
                         th scope="row" { (name) }
                         @for entry in entries {
-                            td { (format!("{:.5}", entry.ours)) }
+                            td { (cells::ours(diverged, entry.ours)) }
                             td { (entry.paper) }
-                            td.ratio { (format!("{:.1}", entry.ratio)) }
+                            td.ratio { (cells::ratio(diverged, entry.ratio, 1)) }
                         }
                     }
                 }
@@ -83,6 +85,7 @@ fn index_table(table: &IndexTable) -> Markup {
 
 fn observer_peaks(replication: &Replication) -> Markup {
     let Some(peaks) = &replication.runs[0].report.metrics.z_peak_deg else { return html! {} };
+    let diverged = replication.diverged(Scheme::Proposed.id());
     html! {
         div.scroll { table {
             caption { "Peak observer error of the proposed scheme [°] (K_d is calibrated to the paper's values: no evidence)" }
@@ -91,7 +94,7 @@ fn observer_peaks(replication: &Replication) -> Markup {
                 @for (joint, (ours, paper)) in peaks.iter().zip(OBSERVER_PEAKS_DEG).enumerate() {
                     tr {
                         th scope="row" { (joint + 1) }
-                        td { (format!("{ours:.5}")) } td { (paper) } td.ratio { (format!("{:.3}", ours / paper)) }
+                        td { (cells::ours(diverged, *ours)) } td { (paper) } td.ratio { (cells::ratio(diverged, ours / paper, 3)) }
                     }
                 }
             }
@@ -107,6 +110,7 @@ fn claims(replication: &Replication) -> Markup {
                     @match claim.verdict {
                         Verdict::Holds => span.verdict.good { "✓ holds" },
                         Verdict::DoesNotHold => span.verdict.bad { "✗ does not hold" },
+                        Verdict::NotTested => span.verdict { "– not tested" },
                     }
                     " " (claim.claim)
                     dl {

@@ -3,20 +3,23 @@
 //! Runs the schemes, prints the tables beside the paper's, judges its claims and lists every assumption; writes scenarios,
 //! series, figures and one self-contained HTML page into a folder. The judging is the core's; this only asks and writes.
 
+mod cells;
 mod console;
 mod files;
 mod html;
 
+use crate::stdout;
 use adaptarm_core::experiments::replication::{
     ASSUMPTIONS, Assumption, Claim, IndexTable, check_claims, study, table_1, table_2,
 };
 use adaptarm_core::scenario::{
-    InitialVelocityDocument, Report, Run, Scenario, ScenarioDocument, ScenarioError, TrajectoryDocument,
+    InitialVelocityDocument, OutcomeKind, Report, Run, Scenario, ScenarioDocument, ScenarioError,
 };
 use anyhow::{Context, Result};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 /// Regenerate the published study.
@@ -81,11 +84,10 @@ pub fn replicate(args: &ReplicateArgs) -> Result<()> {
     let bar = bar("writing figures and report", 1);
     let report = files::write(&replication, &args.out)?;
     bar.finish_and_clear();
-    console::print_line(&format!("Report: {}", report.display()))
+    Ok(stdout::print(&format!("\nReport: {}\n", report.display()))?)
 }
 
 fn adjust(args: &ReplicateArgs, document: &mut ScenarioDocument) {
-    debug_assert_eq!(document.trajectory, TrajectoryDocument::Paper);
     if let Some(duration_s) = args.duration {
         document.integration.duration_s = duration_s;
     }
@@ -106,20 +108,20 @@ fn simulate(scenarios: &[Scenario]) -> Result<[Run; 3]> {
     let bars = MultiProgress::new();
     let with_bars: Vec<_> =
         scenarios.iter().map(|scenario| (scenario, bars.add(bar(scenario.scheme().name(), 1000)))).collect();
-    let runs: Vec<Run> = with_bars
+    let runs: Option<Vec<Run>> = with_bars
         .into_par_iter()
         .map(|(scenario, bar)| {
-            let mut simulation = scenario.start();
-            while !simulation.advance(SLICE) {
+            let run = scenario.run_in_slices(SLICE, &mut |simulation| {
                 bar.set_position((simulation.progress() * 1000.0) as u64);
-            }
+                ControlFlow::Continue(())
+            });
             bar.finish();
-            scenario.finish(simulation)
+            run
         })
         .collect();
     // On the terminal the tables replace the bars.
     bars.clear().ok();
-    <[Run; 3]>::try_from(runs).map_err(|runs| anyhow::anyhow!("the study has {} runs instead of 3", runs.len()))
+    runs.and_then(|runs| <[Run; 3]>::try_from(runs).ok()).context("the study does not have its three runs")
 }
 
 fn bar(what: &str, length: u64) -> ProgressBar {
@@ -147,6 +149,11 @@ fn judge(scenarios: Vec<Scenario>, runs: [Run; 3]) -> Replication {
 }
 
 impl Replication {
+    /// Whether the scheme of this identifier was given up before its end.
+    fn diverged(&self, scheme: &str) -> bool {
+        self.reports.iter().any(|report| report.scheme == scheme && report.outcome == OutcomeKind::Diverged)
+    }
+
     /// The settings in one line.
     fn settings(&self) -> String {
         let start = match self.initial_velocity {

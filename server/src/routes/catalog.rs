@@ -1,12 +1,12 @@
 //! What exists: presets, robots, schemes, the scenario's schema, limits.
 
 use super::internal;
+use crate::api::Name;
 use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
 use crate::error::Problem;
 use adaptarm_core::robots::ROBOTS;
 use adaptarm_core::scenario::{PRESETS, ScenarioDocument, Scheme, preset as find_preset};
 use axum::Json;
-use axum::extract::Path;
 use schemars::Schema;
 use serde_json::{Value, json};
 
@@ -29,7 +29,7 @@ pub(super) async fn presets() -> Result<Json<Vec<PresetView>>, Problem> {
     PRESETS.iter().map(PresetView::new).collect::<Result<_, _>>().map(Json).map_err(internal)
 }
 
-pub(super) async fn preset(Path(id): Path<String>) -> Result<Json<PresetView>, Problem> {
+pub(super) async fn preset(Name(id): Name) -> Result<Json<PresetView>, Problem> {
     let preset = find_preset(&id).ok_or_else(|| Problem::not_found("preset", &id))?;
     PresetView::new(preset).map(Json).map_err(internal)
 }

@@ -1,12 +1,12 @@
 //! Submitting jobs, looking at them, stopping them, reading their results.
 
-use crate::api;
 use crate::api::jobs::{JobRequest, JobView, SeriesQuery, StudyResultView, location};
+use crate::api::{self, Name, series::csv};
 use crate::error::Problem;
 use crate::jobs::{Job, JobState, StoreError, StudyResult};
 use crate::state::AppState;
 use axum::Json;
-use axum::extract::{Path, Query, State, rejection::QueryRejection};
+use axum::extract::{Query, State, rejection::QueryRejection};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
@@ -28,24 +28,24 @@ pub(super) async fn submit(
     Ok((StatusCode::ACCEPTED, location, Json(JobView::from(job))).into_response())
 }
 
-pub(super) async fn show(State(state): State<AppState>, Path(id): Path<String>) -> Result<Json<JobView>, Problem> {
+pub(super) async fn show(State(state): State<AppState>, Name(id): Name) -> Result<Json<JobView>, Problem> {
     Ok(Json(find(&state, &id).await?.into()))
 }
 
 /// Cancelling a job that has ended changes nothing and is no mistake: it may have ended a moment ago.
-pub(super) async fn cancel(State(state): State<AppState>, Path(id): Path<String>) -> Result<Json<JobView>, Problem> {
+pub(super) async fn cancel(State(state): State<AppState>, Name(id): Name) -> Result<Json<JobView>, Problem> {
     let job = state.engine.store().cancel(parse(&id)?).await?;
     Ok(Json(job.ok_or_else(|| no_job(&id))?.into()))
 }
 
-pub(super) async fn result(State(state): State<AppState>, Path(id): Path<String>) -> Result<Response, Problem> {
+pub(super) async fn result(State(state): State<AppState>, Name(id): Name) -> Result<Response, Problem> {
     let result = find_result(&state, &id).await?;
     Ok(Json(StudyResultView::from(&*result)).into_response())
 }
 
 pub(super) async fn series(
     State(state): State<AppState>,
-    Path(id): Path<String>,
+    Name(id): Name,
     query: Result<Query<SeriesQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     let Query(SeriesQuery { scenario }) =
@@ -58,11 +58,8 @@ pub(super) async fn series(
         let detail = "samples are kept for the newest jobs only; the same scenario gives the same samples again";
         return Err(Problem::new(StatusCode::GONE, "/problems/gone", "No longer kept", detail));
     }
-    // A long recording takes a second to write down.
-    let csv =
-        tokio::task::spawn_blocking(move || result.recordings[scenario].to_csv()).await.map_err(super::internal)?;
     let media_type = HeaderValue::from_static("text/csv; charset=utf-8; header=present");
-    Ok(([(header::CONTENT_TYPE, media_type)], csv).into_response())
+    Ok(([(header::CONTENT_TYPE, media_type)], csv(result, scenario)).into_response())
 }
 
 fn no_job(id: &str) -> Problem {

@@ -11,9 +11,9 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::routing::{get, post};
 use tower_http::compression::CompressionLayer;
 
-/// Everything below `/api/v1`.
+/// The API, whose index is found with and without a slash at the end.
 pub fn api() -> Router<AppState> {
-    Router::new()
+    let version_1 = Router::new()
         .route("/", get(catalog::index))
         .route("/presets", get(catalog::presets))
         .route("/presets/{id}", get(catalog::preset))
@@ -25,7 +25,10 @@ pub fn api() -> Router<AppState> {
         .route("/jobs/{id}", get(jobs::show))
         .route("/jobs/{id}/cancel", post(jobs::cancel))
         .route("/jobs/{id}/result", get(jobs::result))
-        .route("/jobs/{id}/result/series", get(jobs::series))
+        .route("/jobs/{id}/result/series", get(jobs::series));
+    Router::new()
+        .nest("/api/v1", version_1)
+        .route("/api/v1/", get(catalog::index))
         .layer(axum::middleware::map_response(|mut response: axum::response::Response| async {
             // A job's state changes between two looks at it.
             response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));

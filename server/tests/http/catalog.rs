@@ -54,6 +54,8 @@ async fn robots_limits_and_schema() {
 async fn the_index_leads_everywhere() {
     let app = App::new();
     let index = app.get("/api/v1").await.json();
+    let slashed = app.get("/api/v1/").await;
+    assert_eq!((slashed.json(), slashed.header("cache-control")), (index.clone(), "no-store"));
     for (name, link) in index["links"].as_object().unwrap() {
         let expected = if name == "submit_job" { 405 } else { 200 };
         assert_eq!(app.get(link.as_str().unwrap()).await.status, expected, "{name}");

@@ -16,11 +16,15 @@ async fn with_field(parent: &str, field: &str, value: Value) -> crate::support::
 #[tokio::test]
 async fn unknown_paths() {
     let app = App::new();
-    for path in ["/api/v1/nothing", "/api", "/api/v2/jobs", "/nothing.html", "/api/v1/", "/%ff/..%2f"] {
+    for path in ["/api/v1/nothing", "/api", "/api/v2/jobs", "/nothing.html", "/api/v1//", "/%ff/..%2f"] {
         app.get(path).await.problem(404, "/problems/http");
     }
     let problem = app.get("/api/v1/presets/nonsense").await.problem(404, "/problems/http");
     assert_eq!(problem["detail"], r#"there is no preset "nonsense""#);
+    for path in ["/api/v1/presets/%ff", "/api/v1/jobs/%ff/result"] {
+        let problem = app.get(path).await.problem(400, "/problems/http");
+        assert_eq!(problem["detail"], "the path, with its percent-encoding undone, is not UTF-8 text");
+    }
 }
 
 #[tokio::test]
@@ -66,9 +70,9 @@ async fn not_json() {
 async fn deep_nesting_is_refused_without_harm() {
     let app = App::new();
     for body in ["[".repeat(30_000), "{\"kind\":".repeat(30_000)] {
-        app.post(JOBS, body).await.problem(422, "/problems/malformed");
+        let problem = app.post(JOBS, body).await.problem(400, "/problems/malformed-json");
+        assert!(problem["detail"].as_str().unwrap().contains("recursion limit exceeded"), "{problem}");
     }
-    // A trajectory is read as a whole before its kind is known.
     let deep = study(&[short("proposed")]).to_string().replace("\"format\"", "\"trajectory\":TRAJECTORY,\"format\"");
     let deep = deep.replace("TRAJECTORY", &format!("{{\"a\":{}", "[".repeat(30_000)));
     let problem = app.post(JOBS, deep).await.problem(400, "/problems/malformed-json");
@@ -92,6 +96,28 @@ async fn unknown_missing_and_doubled_fields() {
     assert_eq!(problem["pointer"], "/kind");
 }
 
+/// Whatever comes before `kind`, and whatever serde would take from a list.
+#[tokio::test]
+async fn a_wrong_type_is_found_at_its_place() {
+    for (parent, field, value, place) in [
+        ("", "integration", json!(["rk4", 0.001, 12]), "integration"),
+        ("", "scheme", json!(["proposed"]), "scheme"),
+        ("", "scheme", json!({ "gains": { "k_s": [1, 2, "z"] }, "kind": "slotine_li" }), "scheme/gains/k_s/2"),
+        ("", "plant", json!({ "friction": { "width_rad_s": "wide" } }), "plant/friction/width_rad_s"),
+        (
+            "",
+            "trajectory",
+            json!({ "kind": "fourier", "offset_deg": [0, 90, -90], "sine_deg": [[1, "a"]] }),
+            "trajectory/sine_deg/0/1",
+        ),
+    ] {
+        let problem = with_field(parent, field, value).await.problem(422, "/problems/malformed");
+        assert_eq!(problem["pointer"], format!("/spec/scenarios/0/{place}"));
+    }
+    let problem = App::new().post(JOBS, format!("[{}]", study(&[]))).await.problem(422, "/problems/malformed");
+    assert_eq!(problem["detail"], "invalid type: list, expected an object");
+}
+
 #[tokio::test]
 async fn numbers_outside_their_range_come_with_the_range() {
     let problem = with_field("/integration", "step_s", json!(-1)).await.problem(422, "/problems/out-of-range");
@@ -108,6 +134,10 @@ async fn lists_names_and_contradictions() {
     let problem = gains.problem(422, "/problems/wrong-length");
     assert_eq!(problem["pointer"], "/spec/scenarios/0/scheme/gains/k_v");
     assert_eq!((&problem["found"], &problem["expected"]), (&json!(2), &json!(3)));
+    let harmonics = json!({ "kind": "fourier", "offset_deg": [0, 90, -90], "sine_deg": [vec![1; 51]] });
+    let problem = with_field("", "trajectory", harmonics).await.problem(422, "/problems/too-long");
+    assert_eq!(problem["pointer"], "/spec/scenarios/0/trajectory/sine_deg/0");
+    assert_eq!((&problem["found"], &problem["most"]), (&json!(51), &json!(50)));
     let problem = with_field("", "robot", json!("puma")).await.problem(422, "/problems/unknown");
     assert_eq!(problem["allowed"], "crs_a465");
     let many_steps = json!({ "step_s": 1e-6, "duration_s": 1e5 });
@@ -120,13 +150,29 @@ async fn studies_that_are_too_much_together() {
     let app = App::new();
     let problem = app.post(JOBS, study(&[]).to_string()).await.problem(422, "/problems/out-of-range");
     assert_eq!((&problem["pointer"], &problem["max"]), (&json!("/spec/scenarios"), &json!(64.0)));
-    app.post(JOBS, study(&vec![short("proposed"); 65]).to_string()).await.problem(422, "/problems/out-of-range");
-    let long = vec![crate::support::long(); 12];
-    app.post(JOBS, study(&long).to_string()).await.problem(422, "/problems/conflict");
+    let mut sampled = short("proposed");
+    sampled["recording"]["samples"] = json!(200_000);
+    for (scenarios, what, most) in [
+        (vec![short("proposed"); 65], "scenarios", 64),
+        (vec![crate::support::long(); 12], "integration steps", 1_000_000_000),
+        (vec![sampled; 3], "samples", 400_000),
+    ] {
+        let problem = app.post(JOBS, study(&scenarios).to_string()).await.problem(422, "/problems/too-much");
+        assert_eq!(problem["pointer"], "/spec/scenarios");
+        assert_eq!((&problem["what"], &problem["most"]), (&json!(what), &json!(most)));
+        assert!(problem["total"].as_u64().unwrap() > most, "{problem}");
+    }
+}
+
+#[tokio::test]
+async fn labels_over_the_limit() {
+    let app = App::new();
     let mut labelled = study(&[short("proposed")]);
     labelled["label"] = json!("x".repeat(201));
-    let problem = app.post(JOBS, labelled.to_string()).await.problem(422, "/problems/conflict");
-    assert_eq!(problem["pointer"], "/label");
+    let problem = app.post(JOBS, labelled.to_string()).await.problem(422, "/problems/too-long");
+    assert_eq!((&problem["pointer"], &problem["most"]), (&json!("/label"), &json!(200)));
+    labelled["label"] = json!("é".repeat(200));
+    assert_eq!(app.post(JOBS, labelled.to_string()).await.status, 202);
 }
 
 #[tokio::test]

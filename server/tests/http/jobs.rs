@@ -37,6 +37,22 @@ async fn a_study_gives_the_reports_that_the_core_gives() {
     app.get(&format!("{job}/result/series?columns=q")).await.problem(400, "/problems/http");
 }
 
+/// Compression once asked for more after the last piece, which the pieces answered with a panic.
+#[tokio::test]
+async fn compressed_samples_come_to_their_end() {
+    let app = App::new();
+    let job = app.submit(&[short("proposed")]).await;
+    app.wait(&job, &["succeeded"]).await;
+    let path = format!("{job}/result/series");
+    let plain = app.get(&path).await;
+    let compressed = request("GET", &path).header("accept-encoding", "gzip").body(Body::empty()).unwrap();
+    let compressed = app.call(compressed).await;
+    assert_eq!(compressed.header("content-encoding"), "gzip");
+    // RFC 1952: the last four bytes are the length of what was compressed.
+    let length = compressed.body.last_chunk::<4>().map(|bytes| u32::from_le_bytes(*bytes) as usize);
+    assert_eq!(length, Some(plain.body.len()));
+}
+
 #[tokio::test]
 async fn a_diverging_scenario_is_a_result() {
     let app = App::new();
@@ -88,7 +104,7 @@ async fn a_full_queue_refuses_and_says_when_to_come_again() {
 async fn a_panic_fails_its_job_and_nothing_else() {
     let app = App::simulating(Capacity::default(), |scenario, _| {
         assert!(scenario.document().seed != 666, "a bug on purpose");
-        Ok(Some(scenario.run()))
+        Some(scenario.run())
     });
     let mut cursed = short("proposed");
     cursed["seed"] = json!(666);

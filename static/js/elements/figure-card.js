@@ -11,24 +11,39 @@ const MARGIN = "200px";
 export class FigureCard extends HTMLElement {
   #size = { width: 0, height: 0 };
   #needed;
+  #zoom;
+  #title;
   /** In view, or nearly. */
   inView = false;
   /** Not showing the latest. */
   stale = true;
 
-  /** `{id, title, note, aspect}`; `needed` is called when the card should be drawn. */
-  configure({ id, title, note, aspect }, needed) {
-    this.dataset.figure = id;
+  /**
+   * `{id, title, note, aspect, zoom}`: a zoom below 1 draws letters and lines smaller than elsewhere. `needed` is called when
+   * the card should be drawn.
+   */
+  configure({ id, title, note, aspect, zoom = 1 }, needed) {
     this.#needed = needed;
-    this.canvas = element("canvas", { role: "img", "aria-label": title });
+    this.#zoom = zoom;
+    this.#title = element("h3");
+    this.canvas = element("canvas", { role: "img" });
     const box = element("div", { class: "canvas-box" }, this.canvas);
     box.style.setProperty("--aspect", aspect);
     this.replaceChildren(
-      element("div", { class: "figure-head" }, element("h3", {}, title), note ? element("span", { class: "figure-note" }, note) : null),
+      element("div", { class: "figure-head" }, this.#title, note ? element("span", { class: "figure-note" }, note) : null),
       box,
     );
+    this.show({ id, title });
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect)).observe(box);
     new IntersectionObserver(([entry]) => this.#move(entry.isIntersecting), { rootMargin: MARGIN }).observe(this);
+  }
+
+  /** Becomes the card of a figure. */
+  show({ id, title }) {
+    this.dataset.figure = id;
+    this.#title.textContent = title;
+    this.description = title;
+    this.#ask();
   }
 
   /** What the canvas shows, in words. */
@@ -36,7 +51,7 @@ export class FigureCard extends HTMLElement {
     this.canvas.setAttribute("aria-label", text);
   }
 
-  /** Prepares the canvas for a drawing and returns device pixels per layout pixel; 0 while it has no size. */
+  /** Prepares the canvas for a drawing and returns device pixels per layout pixel of the drawing; 0 while it has no size. */
   prepare() {
     const scale = devicePixelRatio || 1;
     const width = Math.round(this.#size.width * scale);
@@ -48,7 +63,7 @@ export class FigureCard extends HTMLElement {
       this.canvas.width = width;
       this.canvas.height = height;
     }
-    return scale;
+    return scale * this.#zoom;
   }
 
   #resize({ width, height }) {

@@ -20,10 +20,16 @@ const SUMMARY = {
 };
 const ESTIMATES_PER_FIGURE = 6;
 
+/** Identifiers of all figures. */
+export const FIGURES = [...SIGNALS, ...ESTIMATES];
+
 export class Figures {
   #plotter;
-  #schemes;
+  #description;
   #cards = [];
+  /** The latest reports by scheme, and the duration. */
+  #reports = {};
+  #seconds = 0;
   #frame = null;
   #after = [];
   /** Identifiers of the schemes to draw. */
@@ -33,26 +39,32 @@ export class Figures {
   /** `containers` take the signals' figures and the estimates'. */
   constructor(plotter, description, containers) {
     this.#plotter = plotter;
-    this.#schemes = description.schemes;
-    for (const [container, ids] of [
-      [containers.signals, SIGNALS],
-      [containers.estimates, ESTIMATES],
-    ]) {
-      for (const id of ids) {
-        const { natural_size, paper_number } = description.figures.find((figure) => figure.id === id);
-        const card = element("figure-card");
-        const note = paper_number ? strings.paperFigure(paper_number) : null;
-        card.configure({ id, title: strings.figure[id], note, aspect: natural_size[0] / natural_size[1] }, () => this.#schedule());
-        container.append(card);
-        this.#cards.push(card);
-      }
-    }
+    this.#description = description;
+    containers.signals.append(...SIGNALS.map((id) => this.add(id)));
+    containers.estimates.append(...ESTIMATES.map((id) => this.add(id)));
   }
 
-  /** Takes a scheme's samples, or null for none, and whether its run completed. */
-  setRun(scheme, rows, completed) {
+  /** Makes another card of a figure and keeps it drawn; the caller places it. */
+  add(id, zoom) {
+    const { natural_size, paper_number } = this.#description.figures.find((figure) => figure.id === id);
+    const card = element("figure-card");
+    const note = paper_number ? strings.paperFigure(paper_number) : null;
+    const aspect = natural_size[0] / natural_size[1];
+    card.configure({ id, title: strings.figure[id], note, aspect, zoom }, () => this.#schedule());
+    this.#cards.push(card);
+    return card;
+  }
+
+  /** Makes a card show another figure. */
+  change(card, id) {
+    card.show({ id, title: strings.figure[id] });
+    this.#describe(card);
+  }
+
+  /** Takes a scheme's samples, or null for none, and the report on its run. */
+  setRun(scheme, rows, report) {
     if (rows) {
-      this.#plotter.set_run(scheme, rows, completed);
+      this.#plotter.set_run(scheme, rows, report.outcome === "completed", report.theta_true);
     } else {
       this.#plotter.clear(scheme);
     }
@@ -72,15 +84,21 @@ export class Figures {
 
   /** Text alternatives from the latest reports, by scheme. */
   describe(reports, seconds) {
+    this.#reports = reports;
+    this.#seconds = seconds;
     for (const card of this.#cards) {
-      const id = card.dataset.figure;
-      const parts = this.#schemes
-        .filter((scheme) => this.shown.includes(scheme.id) && reports[scheme.id])
-        .map((scheme) => summarise(id, scheme, reports[scheme.id]))
-        .filter((part) => part !== null);
-      const summary = parts.length === 0 && id === "observer_errors" ? strings.noObserver : parts.join(" ");
-      card.description = strings.figureAlt(strings.figure[id], formatSeconds(seconds), summary);
+      this.#describe(card);
     }
+  }
+
+  #describe(card) {
+    const id = card.dataset.figure;
+    const parts = this.#description.schemes
+      .filter((scheme) => this.shown.includes(scheme.id) && this.#reports[scheme.id])
+      .map((scheme) => summarise(id, scheme, this.#reports[scheme.id]))
+      .filter((part) => part !== null);
+    const summary = parts.length === 0 && id === "observer_errors" ? strings.noObserver : parts.join(" ");
+    card.description = strings.figureAlt(strings.figure[id], formatSeconds(this.#seconds), summary);
   }
 
   #schedule() {

@@ -54,9 +54,9 @@ pub const BAD: &[Bad] = &[
     bad("other format", || MINIMAL.replace("/1", "/99").into(), "format: \"adaptarm.scenario/99\"", 422),
     bad("not JSON", || b"hello".to_vec(), "expected value at line 1 column", 400),
     bad("more than JSON", || format!("{MINIMAL} x").into(), "at line 1 column 63", 400),
-    bad("list", || b"[1, 2]".to_vec(), "", 422),
+    bad("list", || b"[1, 2]".to_vec(), "invalid type: list, expected an object", 422),
     bad("empty", Vec::new, "", 400),
-    bad("deep nesting", || vec![b'['; 500_000], "", 422),
+    bad("deep nesting", || vec![b'['; 500_000], "recursion limit", 400),
     bad(
         "deep nesting inside",
         || with(&format!(r#""trajectory":{{"a":{}"#, "[".repeat(500_000))),

@@ -1,7 +1,7 @@
 //! `adaptarm replicate`: what it prints, what it leaves in its folder, and how it refuses.
 
 use adaptarm_tests::binary;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -56,6 +56,22 @@ fn the_study_is_regenerated() -> Result<()> {
         assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000, "{figure}");
         assert!(std::fs::read_to_string(folder.join(format!("figures/{figure}.svg")))?.starts_with("<svg"));
     }
+    Ok(())
+}
+
+#[test]
+fn diverged_runs_are_named_and_not_counted() -> Result<()> {
+    let folder = tempfile::tempdir()?;
+    let output = replicate(&["--step", "0.05", "--duration", "1"], folder.path())?;
+    ensure!(output.status.success(), "{output:?}");
+    let said = String::from_utf8(output.stdout)?;
+    assert!(said.contains("proposed DIVERGED at"), "{said}");
+    // In both tables, three joints of two schemes, and the observer's three peaks.
+    assert_eq!(said.matches(" diverged ").count(), 2 * 3 * 2 + 3, "{said}");
+    assert_eq!(said.matches("NOT TESTED ").count(), 12, "{said}");
+    let html = std::fs::read_to_string(folder.path().join("report.html"))?;
+    assert_eq!(html.matches("<td>diverged</td>").count(), 2 * 3 * 2 + 3);
+    assert_eq!(html.matches("– not tested").count(), 12);
     Ok(())
 }
 

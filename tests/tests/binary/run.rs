@@ -151,6 +151,9 @@ fn a_table_that_cannot_be_written_is_told_before_the_simulation() -> Result<()> 
     assert!(line.contains("nowhere/out.csv: cannot write it"), "{line}");
     let line = refusal(&adaptarm(&["run", "long.json", "--csv", "./long.json"], folder.path())?, 2)?;
     assert!(line.contains("would replace the scenario"), "{line}");
+    let line = refusal(&adaptarm(&["run", "long.json", "--csv", "-"], folder.path())?, 2)?;
+    assert!(line.contains("--csv -: standard output carries the report"), "{line}");
+    assert_eq!(fs::read_dir(folder.path())?.count(), 1);
     assert_eq!(fs::read_to_string(folder.path().join("long.json"))?, long);
     Ok(())
 }

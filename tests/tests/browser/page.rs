@@ -126,6 +126,13 @@ impl<'a> Page<'a> {
         self.wait_for("return document.documentElement.dataset.state === 'ready'")
     }
 
+    /// Gives a phone's screen another size: held sideways, say.
+    pub fn resize(&self, width: u32, height: u32) -> Result<()> {
+        let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 2, "mobile": true });
+        self.devtools("Emulation.setDeviceMetricsOverride", &metrics)?;
+        self.wait_for(&format!("return innerWidth === {width} && innerHeight === {height}"))
+    }
+
     /// A command of the browser's own protocol.
     pub fn devtools(&self, command: &str, parameters: &Value) -> Result<Value> {
         self.command("goog/cdp/execute", json!({ "cmd": command, "params": parameters }))

@@ -10,9 +10,14 @@ pub fn save_whole(page: &Page<'_>, name: &str, width: u32, scale: u32) -> Result
     let height = page.run("return document.documentElement.scrollHeight", &[])?;
     let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": scale, "mobile": false });
     page.devtools("Emulation.setDeviceMetricsOverride", &metrics)?;
-    // Figures that come into view are drawn in one of the next frames.
-    page.run_async("const done = arguments[0]; setTimeout(() => requestAnimationFrame(() => done()), 600)", &[])?;
+    settle(page)?;
     save(page, name)
+}
+
+/// Waits until scrolling has ended and the figures that came into view are drawn.
+pub fn settle(page: &Page<'_>) -> Result<()> {
+    page.run_async("const done = arguments[0]; setTimeout(() => requestAnimationFrame(() => done()), 600)", &[])?;
+    Ok(())
 }
 
 /// Saves what the window shows as `NAME.png`.
@@ -24,10 +29,15 @@ pub fn save(page: &Page<'_>, name: &str) -> Result<()> {
     Ok(std::fs::write(screenshots()?.join(format!("{name}.png")), bytes)?)
 }
 
-/// A figure's canvas as a data URL.
+/// A figure's canvas among the results as a data URL.
 pub fn canvas(page: &Page<'_>, figure: &str) -> Result<String> {
-    let script = "return document.querySelector(`[data-figure=${arguments[0]}] canvas`).toDataURL()";
-    Ok(page.run(script, &[json!(figure)])?.as_str().context("no picture")?.to_owned())
+    picture(page, &format!("#results [data-figure={figure}] canvas"))
+}
+
+/// The canvas that a selector finds, as a data URL.
+pub fn picture(page: &Page<'_>, canvas: &str) -> Result<String> {
+    let script = "return document.querySelector(arguments[0]).toDataURL()";
+    Ok(page.run(script, &[json!(canvas)])?.as_str().context("no picture")?.to_owned())
 }
 
 fn decode_base64(text: &str) -> Option<Vec<u8>> {

@@ -76,7 +76,7 @@ pub const ASSUMPTIONS: &[Assumption] = &[
     Assumption {
         about: "Observer gain Λ_x",
         paper: "not given",
-        here: "equal to Λ",
+        here: "diag(60, 80, 70) 1/s, the paper's Λ; it does not follow a changed Λ",
         field: Some("scheme.gains.lambda_x"),
     },
     Assumption {

@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use crate::contrast::ratio;
 use crate::page::{Page, Screen};
-use crate::pictures::{save, save_whole};
+use crate::pictures::{save, save_whole, settle};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
@@ -79,6 +79,12 @@ pub fn screenshots(bench: &Bench) -> Result<()> {
         // Two rounds: a whole page's window cannot be made small again where the screen is a phone's.
         for theme in ["light", "dark"] {
             save(&page, &format!("{name}-{theme}"))?;
+            if screen == Screen::Phone {
+                page.click(".jump-bar a[href='#gains']")?;
+                settle(&page)?;
+                save(&page, &format!("{name}-{theme}-gains"))?;
+                page.run("scrollTo({ top: 0, behavior: 'instant' })", &[])?;
+            }
             page.click("#theme-toggle")?;
         }
         for theme in ["light", "dark"] {

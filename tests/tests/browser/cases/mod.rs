@@ -5,6 +5,7 @@ mod identity;
 mod input;
 mod keyboard;
 mod latency;
+mod pinned;
 mod resilience;
 mod sliders;
 
@@ -25,6 +26,9 @@ pub const ALL: &[(&str, Case)] = &[
     ("nonsense_is_refused_and_the_last_good_run_stays", input::nonsense_is_refused_and_the_last_good_run_stays),
     ("the_keyboard_is_enough", keyboard::the_keyboard_is_enough),
     ("a_phone_shows_everything_without_scrolling_sideways", appearance::a_phone_shows_everything),
+    ("a_phone_sees_the_pinned_figure_follow_the_slider", pinned::a_phone_sees_the_figure_follow_the_slider),
+    ("the_pinned_figure_is_chosen_and_hidden_by_keyboard", pinned::it_is_chosen_and_hidden_by_keyboard),
+    ("a_phone_held_sideways_keeps_room_for_the_controls", pinned::a_phone_held_sideways_keeps_room),
     ("every_colour_of_text_has_enough_contrast", appearance::every_colour_of_text_has_enough_contrast),
     ("screenshots", appearance::screenshots),
     ("a_slider_move_is_drawn_in_time", latency::a_slider_move_is_drawn_in_time),
