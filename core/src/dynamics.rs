@@ -8,7 +8,7 @@ use nalgebra::{SMatrix, SVector};
 use std::marker::PhantomData;
 
 /// Coulomb friction's sign, regularised as `tanh(v / width)`; `width` in rad/s, zero for the true sign.
-/// Chosen: the paper does not say how its simulation treats the jump (PHYSICS section 1).
+/// Chosen: the paper does not say how its simulation treats the jump (docs/physics.md section 1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionSign<T> {
     /// `sgn(v)` with `sgn(0) = 0`.

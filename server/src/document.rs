@@ -3,7 +3,9 @@
 //! Shared by the command line and the HTTP API, which must refuse the same documents in the same words.
 
 use crate::config::DOCUMENT_BYTES;
-use adaptarm_core::scenario::{Problem, ReadError, Scenario, ScenarioDocument, ScenarioError, read_document};
+use adaptarm_core::scenario::{
+    Problem, ReadError, Scenario, ScenarioDocument, ScenarioError, in_plain_words, read_document,
+};
 use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, Read};
@@ -110,7 +112,7 @@ fn not_utf8(bytes: &[u8], error: std::str::Utf8Error) -> DocumentError {
 
 fn from_json(pointer: String, error: &serde_json::Error) -> DocumentError {
     use serde_json::error::Category;
-    let message = brief(&plain(&error.to_string()));
+    let message = brief(&in_plain_words(&error.to_string()));
     let pointer = if pointer.len() > LONGEST_MESSAGE_CHARS { String::new() } else { pointer };
     match error.classify() {
         Category::Data => ScenarioError::new(pointer, Problem::Malformed { message }).into(),
@@ -118,26 +120,6 @@ fn from_json(pointer: String, error: &serde_json::Error) -> DocumentError {
             DocumentError::Syntax { pointer, message, line: error.line(), column: error.column() }
         }
     }
-}
-
-/// A reader's message in terms of JSON instead of Rust.
-fn plain(message: &str) -> String {
-    // What is found may be quoted from the document and stays as it is; what is expected stands at the end.
-    let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
-    let found = match found {
-        "invalid type: sequence" => "invalid type: list",
-        "invalid type: map" => "invalid type: object",
-        found => found,
-    };
-    let expected = match expected {
-        "f64" => "a number",
-        "u64" | "usize" => "a whole number from 0 up",
-        "a sequence" => "a list",
-        _ if expected.starts_with("struct ") || expected.contains(" tagged enum ") => "an object",
-        _ if expected.starts_with("enum ") || expected.starts_with("variant of enum ") => "a name",
-        _ => expected,
-    };
-    format!("{found}, expected {expected}")
 }
 
 /// A message as one line of bounded length, whatever it quotes.

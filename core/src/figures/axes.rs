@@ -34,10 +34,10 @@ pub(super) fn tick_step(span: f64) -> f64 {
     span / 6.0
 }
 
-/// A tick's label with as many decimals as its axis needs; powers of ten for very small spans.
+/// A tick's label with as many decimals as its axis needs; powers of ten for very small and very large spans.
 pub(super) fn format_tick(value: f64, step: f64) -> String {
     let value = if value.abs() < step * 1e-6 { 0.0 } else { value };
-    if step > 0.0 && step < 5e-4 {
+    if step > 0.0 && !(5e-4..2e4).contains(&step) {
         return if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") };
     }
     let decimals = (1.0 - step.log10()).ceil().clamp(0.0, 6.0) as usize;
@@ -55,6 +55,7 @@ mod tests {
         assert_eq!(format_tick(-20.0, 10.0), "-20");
         assert_eq!(format_tick(1e-20, 0.05), "0");
         assert_eq!(format_tick(2e-5, 1e-5), "2.0e-5");
+        assert_eq!(format_tick(-300_000.0, 1e5), "-3.0e5");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! CRS A465, first three joints: the coefficient table of PHYSICS section 1 and the rows that use it.
+//! CRS A465, first three joints: the coefficient table of docs/physics.md section 1 and the rows that use it.
 //!
 //! Angles: q2 = 90° is the upper arm vertical, q3 is relative, `[0, 90, −90]°` is upper arm up, forearm horizontal.
 //! `c2 = cos q2`, `s23 = sin(q2 + q3)` and so on. The paper cites a model it does not print; the assignment of θ1..θ7 to
@@ -19,7 +19,7 @@ const P: usize = 18;
 #[derive(Debug, Clone, Copy)]
 pub struct CrsA465;
 
-/// Coefficients of the inertia parameters θ1..θ10 at one configuration; PHYSICS section 1, table.
+/// Coefficients of the inertia parameters θ1..θ10 at one configuration; docs/physics.md section 1, table.
 /// `α = ½ ∂H11/∂q2`, `β = ½ ∂H11/∂q3`, `γ = ½ ∂H22/∂q3`, one of each per parameter; only entries that vary are held.
 #[derive(Debug, Clone, Copy)]
 pub struct Geometry<T> {

@@ -1,7 +1,7 @@
 //! The scenario document `adaptarm.scenario/1`, as it is written and read. Fields are stable: add, never rename.
 //!
 //! Only shapes and defaults live here; what is allowed is decided in `validate`. Every field but `format` and `scheme`
-//! may be left out and means what the paper does, or what PHYSICS.md chose where the paper is silent.
+//! may be left out and means what the paper does, or what docs/physics.md chose where the paper is silent.
 
 use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
 use serde::{Deserialize, Serialize};

@@ -86,6 +86,26 @@ impl ScenarioError {
     }
 }
 
+/// A reader's message in terms of documents instead of Rust.
+pub fn in_plain_words(message: &str) -> String {
+    // What is found may be quoted from the document and stays as it is; what is expected stands at the end.
+    let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
+    let found = match found {
+        "invalid type: sequence" => "invalid type: list",
+        "invalid type: map" => "invalid type: object",
+        found => found,
+    };
+    let expected = match expected {
+        "f64" => "a number",
+        "u64" | "usize" => "a whole number from 0 up",
+        "a sequence" => "a list",
+        _ if expected.starts_with("struct ") || expected.contains(" tagged enum ") => "an object",
+        _ if expected.starts_with("enum ") || expected.starts_with("variant of enum ") => "a name",
+        _ => expected,
+    };
+    format!("{found}, expected {expected}")
+}
+
 /// `/scheme/gains/k_v/2` as `scheme.gains.k_v[2]`.
 fn field_name(pointer: &str) -> String {
     let mut name = String::new();

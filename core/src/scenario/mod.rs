@@ -17,7 +17,7 @@ pub use document::{
     MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
     TrajectoryKind,
 };
-pub use error::{Problem, ScenarioError};
+pub use error::{Problem, ScenarioError, in_plain_words};
 pub use gains::{GainInfo, GainSet, GainShape, ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
@@ -103,7 +103,7 @@ pub struct Run {
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError<E: std::error::Error> {
     /// The reader failed.
-    #[error("{}", ScenarioError::new(pointer.clone(), Problem::Malformed { message: source.to_string() }))]
+    #[error("{}", ScenarioError::new(pointer.clone(), Problem::Malformed { message: in_plain_words(&source.to_string()) }))]
     Document {
         /// JSON pointer to where it failed.
         pointer: String,

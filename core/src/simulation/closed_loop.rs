@@ -14,7 +14,7 @@ use crate::trajectories::{Desired, Remembered};
 use crate::velocity::{VelocityEstimate, VelocitySource};
 use nalgebra::SVector;
 
-/// How a run starts. Chosen: the paper only says where (PHYSICS section 2).
+/// How a run starts. Chosen: the paper only says where (docs/physics.md section 2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InitialVelocity {
     /// `q̇(0) = q̇_d(0)`.

@@ -51,7 +51,7 @@ fn coriolis(q: &Vector3<f64>, u: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64
     model_torque::<Arm, f64, 3, 18>(&y, theta.as_slice())
 }
 
-/// An independent model: H as PHYSICS section 1 prints it, C from Christoffel symbols of its partial derivatives,
+/// An independent model: H as docs/physics.md section 1 prints it, C from Christoffel symbols of its partial derivatives,
 /// gravity from the potential `θ17 sin q2 + θ18 sin(q2 + q3)`.
 fn independent_torque(q: &Vector3<f64>, v: &Vector3<f64>, a: &Vector3<f64>) -> Vector3<f64> {
     fn h(q: [Dual; 3], th: &Theta) -> [[Dual; 3]; 3] {

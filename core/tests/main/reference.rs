@@ -1,6 +1,6 @@
 //! Every number of the reference data (`tests/reference/`), from an independent program at the same step (RK4, 1e-4 s).
 //!
-//! Tolerances, PHYSICS section 4: 1e-8 relative for Slotine-Li and Tang-Arteaga, 1e-7 for the proposed scheme, whose
+//! Tolerances, docs/physics.md section 4: 1e-8 relative for Slotine-Li and Tang-Arteaga, 1e-7 for the proposed scheme, whose
 //! projection is stiff; 1e-10 absolute floor. Two numbers of the 7600 are beyond any program's reach and are checked
 //! otherwise: see [`CHATTER`].
 
@@ -159,7 +159,7 @@ fn the_reference_chatters_where_it_says_so() {
     assert!((reference + 4e-5).abs() > 5e-5, "{reference}");
 }
 
-/// At the study's own step of 1 ms the numbers are within about 1e-6 of the reference (PHYSICS section 4).
+/// At the study's own step of 1 ms the numbers are within about 1e-6 of the reference (docs/physics.md section 4).
 #[test]
 fn a_millisecond_step_is_fine_enough() {
     for case in ["slotine_li", "tang_arteaga", "proposed"] {

@@ -1,7 +1,7 @@
 //! The replication's verdicts: those of the default study, and that each criterion can come out the other way.
 
-use adaptarm_core::experiments::replication::{Verdict, check_claims, study, table_1, table_2};
-use adaptarm_core::scenario::{Run, ScenarioDocument};
+use adaptarm_core::experiments::replication::{Verdict, assumptions, check_claims, study, table_1, table_2};
+use adaptarm_core::scenario::{InitialVelocityDocument, Run, ScenarioDocument, Scheme};
 
 fn runs(adjust: impl Fn(&mut ScenarioDocument)) -> [Run; 3] {
     let runs: Vec<_> = study(adjust).unwrap().iter().map(adaptarm_core::scenario::Scenario::run).collect();
@@ -44,12 +44,44 @@ fn nothing_is_claimed_of_diverged_runs() {
     let coarse = runs(|document| {
         document.integration.step_s = 0.05;
         document.integration.duration_s = 1.0;
-        document.recording.samples = 20;
+        document.recording.samples = 100;
     });
     assert!(coarse.iter().any(|run| run.report.at_s.is_some()));
     for claim in check_claims(&coarse) {
         assert_eq!(claim.verdict, Verdict::NotTested, "{}", claim.id);
         assert!(claim.evidence.contains("diverged"));
+    }
+}
+
+#[test]
+fn nothing_is_claimed_from_a_handful_of_samples() {
+    let few = runs(|document| document.recording.samples = 1);
+    assert!(check_claims(&few).iter().all(|claim| claim.verdict == Verdict::NotTested));
+}
+
+/// What the list says is done is what was done.
+#[test]
+fn assumptions_follow_the_settings() {
+    let said = |document: &ScenarioDocument| {
+        assumptions(document).iter().map(|assumption| assumption.here.to_string()).collect::<Vec<_>>().join("\n")
+    };
+    let mut document = Scheme::Proposed.paper();
+    let default = said(&document);
+    document.integration.duration_s = 77.0;
+    document.integration.step_s = 0.0025;
+    document.recording.samples = 88;
+    document.initial.velocity = InitialVelocityDocument::Rest;
+    document.plant.friction.width_rad_s = 0.5;
+    let changed = said(&document);
+    for (before, after) in [
+        ("12 s", "77 s"),
+        ("steps of 0.001 s", "steps of 0.0025 s"),
+        ("3000 samples", "88 samples"),
+        ("that of the desired trajectory", "at rest"),
+        ("v / 0.01", "v / 0.5"),
+    ] {
+        assert!(default.contains(before) && !default.contains(after), "{before}");
+        assert!(changed.contains(after) && !changed.contains(before), "{after}");
     }
 }
 

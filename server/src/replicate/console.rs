@@ -18,7 +18,7 @@ fn compose(replication: &Replication, text: &mut String) -> std::fmt::Result {
     writeln!(text, "Replication of the study: {}\n", replication.settings())?;
     for report in &replication.reports {
         if let (Some(at_s), Some(reason)) = (report.at_s, &report.reason) {
-            writeln!(text, "{} DIVERGED at {at_s} s: {reason}\n", report.scheme)?;
+            writeln!(text, "{} DIVERGED at {at_s:.4} s: {reason}\n", report.scheme)?;
         }
     }
     for table in &replication.tables {
@@ -45,7 +45,7 @@ fn compose(replication: &Replication, text: &mut String) -> std::fmt::Result {
         writeln!(text, "                 found: {}", claim.evidence)?;
     }
     writeln!(text, "\nAssumptions")?;
-    for assumption in replication.assumptions {
+    for assumption in &replication.assumptions {
         writeln!(text, "  {}: paper {}; here {}", assumption.about, assumption.paper, assumption.here)?;
     }
     Ok(())

@@ -49,7 +49,7 @@ fn outcomes(replication: &Replication) -> Markup {
     html! {
         @for report in &replication.reports {
             @if let (Some(at_s), Some(reason)) = (report.at_s, &report.reason) {
-                p.bad role="note" { (report.scheme) " diverged at " (at_s) " s: " (reason) ". Its numbers up to then are in report.json; in the tables below they would say nothing." }
+                p.bad role="note" { (report.scheme) " diverged at " (format!("{at_s:.4}")) " s: " (reason) ". Its numbers up to then are in report.json; in the tables below they would say nothing." }
             }
         }
     }
@@ -140,7 +140,7 @@ fn assumptions(replication: &Replication) -> Markup {
         div.scroll { table.text {
             thead { tr { th scope="col" { "About" } th scope="col" { "The paper" } th scope="col" { "Here" } th scope="col" { "Scenario field" } } }
             tbody {
-                @for assumption in replication.assumptions {
+                @for assumption in &replication.assumptions {
                     tr {
                         th scope="row" { (assumption.about) }
                         td { (assumption.paper) } td { (assumption.here) }

@@ -10,7 +10,7 @@ mod html;
 
 use crate::stdout;
 use adaptarm_core::experiments::replication::{
-    ASSUMPTIONS, Assumption, Claim, IndexTable, check_claims, study, table_1, table_2,
+    Assumption, Claim, IndexTable, assumptions, check_claims, study, table_1, table_2,
 };
 use adaptarm_core::scenario::{
     InitialVelocityDocument, OutcomeKind, Report, Run, Scenario, ScenarioDocument, ScenarioError,
@@ -36,10 +36,10 @@ pub struct ReplicateArgs {
     #[arg(long, default_value = "replication", value_name = "DIR")]
     out: PathBuf,
     /// Duration of each simulation, s (the paper does not say).
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Integration step, s.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     step: Option<f64>,
     /// Number of samples of the performance index.
     #[arg(long, value_name = "COUNT")]
@@ -60,7 +60,7 @@ struct Replication {
     initial_velocity: InitialVelocityDocument,
     tables: [IndexTable; 2],
     claims: Vec<Claim>,
-    assumptions: &'static [Assumption],
+    assumptions: Vec<Assumption>,
     reports: Vec<Report>,
     #[serde(skip)]
     scenarios: Vec<Scenario>,
@@ -141,7 +141,7 @@ fn judge(scenarios: Vec<Scenario>, runs: [Run; 3]) -> Replication {
         initial_velocity: document.initial.velocity,
         tables: [table_1(&runs), table_2(&runs)],
         claims: check_claims(&runs),
-        assumptions: ASSUMPTIONS,
+        assumptions: assumptions(document),
         reports: runs.iter().map(|run| run.report.clone()).collect(),
         scenarios,
         runs,

@@ -17,7 +17,7 @@ pub enum Verdict {
     Holds,
     /// It does not hold under these settings.
     DoesNotHold,
-    /// A run diverged, so there is nothing to compare.
+    /// A run diverged or has too few samples, so there is nothing to compare.
     NotTested,
 }
 
@@ -43,6 +43,9 @@ const CLOSE: f64 = 0.1;
 /// An estimate counts as constant if it moves less than this share of its whole range in the last sixth of the run.
 const CONSTANT: f64 = 0.05;
 
+/// Halves and sixths of a run must hold more than a sample or two.
+const FEWEST_SAMPLES: usize = 60;
+
 /// Tests every claim against a study's runs, which stand in the order of [`Scheme::ALL`].
 pub fn check_claims(runs: &[Run; 3]) -> Vec<Claim> {
     let mut claims = vec![
@@ -59,15 +62,26 @@ pub fn check_claims(runs: &[Run; 3]) -> Vec<Claim> {
         closest_estimates(runs),
         proposed_best(runs),
     ];
-    let diverged: Vec<_> = Scheme::ALL.into_iter().filter(|scheme| of(runs, *scheme).report.at_s.is_some()).collect();
-    if !diverged.is_empty() {
-        let names = diverged.iter().map(|scheme| scheme.name()).collect::<Vec<_>>().join(", ");
+    if let Some(reason) = untestable(runs) {
         for claim in &mut claims {
             claim.verdict = Verdict::NotTested;
-            claim.evidence = format!("diverged: {names}");
+            claim.evidence.clone_from(&reason);
         }
     }
     claims
+}
+
+/// Why nothing can be said about these runs, if so.
+fn untestable(runs: &[Run; 3]) -> Option<String> {
+    let diverged: Vec<_> = Scheme::ALL.into_iter().filter(|scheme| of(runs, *scheme).report.at_s.is_some()).collect();
+    if !diverged.is_empty() {
+        return Some(format!(
+            "diverged: {}",
+            diverged.iter().map(|scheme| scheme.name()).collect::<Vec<_>>().join(", ")
+        ));
+    }
+    let samples = runs[0].report.samples;
+    (samples < FEWEST_SAMPLES).then(|| format!("{samples} samples; verdicts need at least {FEWEST_SAMPLES}"))
 }
 
 fn claim(id: &'static str, claim: &'static str, criterion: &'static str, holds: bool, evidence: String) -> Claim {

@@ -6,7 +6,7 @@ mod assumptions;
 mod claims;
 mod tables;
 
-pub use assumptions::{ASSUMPTIONS, Assumption};
+pub use assumptions::{Assumption, assumptions};
 pub use claims::{Claim, Verdict, check_claims};
 pub use tables::{IndexTable, OBSERVER_PEAKS_DEG, TABLE_1_DEG, TABLE_2_DEG_S, TableEntry, table_1, table_2};
 
