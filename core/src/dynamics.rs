@@ -96,48 +96,48 @@ pub fn has_positive_inertia<R: Robot<N, P>, const N: usize, const P: usize>(thet
         });
         let still = SVector::<f64, N>::zeros();
         let (inertia, _) = R::inertia_and_bias(&R::geometry(&q), theta, &still, &still);
-        // Sylvester's criterion, by pivots instead of determinants.
-        (1..=N).all(|size| leading_pivot(&inertia, size) > 0.0)
+        factorize(&inertia).pivots.iter().all(|pivot| *pivot > 0.0)
     })
 }
 
-/// Last pivot of `L D Lᵀ` of the leading block of this size.
-fn leading_pivot<const N: usize>(a: &SMatrix<f64, N, N>, size: usize) -> f64 {
-    let mut work = *a;
-    for k in 0..size - 1 {
-        for i in k + 1..size {
-            let factor = work[(i, k)] / work[(k, k)];
-            for j in k..size {
-                let above = work[(k, j)];
-                work[(i, j)] -= factor * above;
-            }
-        }
-    }
-    work[(size - 1, size - 1)]
+/// `A = L D Lᵀ`.
+struct Factors<T, const N: usize> {
+    /// L below its unit diagonal; the rest is left over from A.
+    lower: SMatrix<T, N, N>,
+    /// Diagonal of D; all positive exactly where A is positive definite.
+    pivots: SVector<T, N>,
+    inverse_pivots: SVector<T, N>,
 }
 
-/// Solves `A x = b` for symmetric positive definite `A` by `L D Lᵀ`: no square root, no pivoting, no failure path
-/// (an indefinite `A` gives large or non-finite numbers, which the simulation reports as divergence).
+/// Factors a symmetric matrix: no square root, no pivoting.
 #[inline]
-pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVector<T, N>) -> SVector<T, N> {
-    let mut l = *a;
-    let mut d = SVector::<T, N>::zeros();
-    let mut inverse_d = SVector::<T, N>::zeros();
+fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
+    let mut lower = *a;
+    let mut pivots = SVector::<T, N>::zeros();
+    let mut inverse_pivots = SVector::<T, N>::zeros();
     for j in 0..N {
-        d[j] = a[(j, j)];
+        pivots[j] = a[(j, j)];
         for k in 0..j {
-            let ld = l[(j, k)] * d[k];
-            d[j] -= l[(j, k)] * ld;
+            let ld = lower[(j, k)] * pivots[k];
+            pivots[j] -= lower[(j, k)] * ld;
         }
-        inverse_d[j] = T::one() / d[j];
+        inverse_pivots[j] = T::one() / pivots[j];
         for i in j + 1..N {
             let mut sum = a[(i, j)];
             for k in 0..j {
-                sum -= l[(i, k)] * l[(j, k)] * d[k];
+                sum -= lower[(i, k)] * lower[(j, k)] * pivots[k];
             }
-            l[(i, j)] = sum * inverse_d[j];
+            lower[(i, j)] = sum * inverse_pivots[j];
         }
     }
+    Factors { lower, pivots, inverse_pivots }
+}
+
+/// Solves `A x = b` for symmetric positive definite `A` by `L D Lᵀ`: no failure path
+/// (an indefinite `A` gives large or non-finite numbers, which the simulation reports as divergence).
+#[inline]
+pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVector<T, N>) -> SVector<T, N> {
+    let Factors { lower: l, inverse_pivots, .. } = factorize(a);
     let mut x = b;
     for i in 0..N {
         for k in 0..i {
@@ -146,7 +146,7 @@ pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVect
         }
     }
     for i in (0..N).rev() {
-        x[i] *= inverse_d[i];
+        x[i] *= inverse_pivots[i];
         for k in i + 1..N {
             let known = x[k];
             x[i] -= l[(k, i)] * known;

@@ -132,13 +132,13 @@ impl Figure {
 
     /// Its panels, for a robot whose true parameters are `theta`.
     pub(super) fn panels(self, robot: &RobotData, theta: &[f64]) -> Vec<Panel> {
-        let per_joint = |symbol: &str, unit: &str, signal: Signal, factor: f64| {
+        let per_joint = |symbol: &str, unit: &str, signal: Signal| {
             (0..robot.joint_count())
                 .map(|component| Panel {
                     label: format!("{symbol}{} [{unit}]", component + 1),
                     signal,
                     component,
-                    factor,
+                    factor: signal.exported().1,
                     truth: None,
                 })
                 .collect()
@@ -156,12 +156,11 @@ impl Figure {
                 })
                 .collect()
         };
-        let degrees = 180.0 / std::f64::consts::PI;
         match self {
-            Self::TrackingErrors => per_joint("e", "°", Signal::Error, degrees),
-            Self::VelocityErrors => per_joint("ė", "°/s", Signal::ErrorRate, degrees),
-            Self::ObserverErrors => per_joint("z", "°", Signal::ObserverError, degrees),
-            Self::Torques => per_joint("τ", "N·m", Signal::Torque, 1.0),
+            Self::TrackingErrors => per_joint("e", "°", Signal::Error),
+            Self::VelocityErrors => per_joint("ė", "°/s", Signal::ErrorRate),
+            Self::ObserverErrors => per_joint("z", "°", Signal::ObserverError),
+            Self::Torques => per_joint("τ", "N·m", Signal::Torque),
             Self::Estimates1 => estimates(0),
             Self::Estimates2 => estimates(1),
             Self::Estimates3 => estimates(2),
