@@ -8,7 +8,7 @@ use std::io::Write;
 fn load(file: &str, environment: &[(&str, &str)], flags: &[(&'static str, &str)]) -> Result<Loaded, String> {
     let mut sources = Sources {
         file: None,
-        environment: environment.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect(),
+        environment: environment.iter().map(|(name, value)| ((*name).to_owned(), (*value).into())).collect(),
         flags: flags.iter().map(|(key, value)| (*key, (*value).to_owned())).collect(),
     };
     let folder = tempfile();
@@ -94,7 +94,7 @@ fn mistakes_name_place_key_value_and_what_is_allowed() {
         ("log.filter = \"a=b=c\"", "adaptarm.toml:1: log.filter \"a=b=c\": not a filter such as"),
         (
             "[webhooks]\nallow = [\"10.0.0.0/33\"]",
-            "adaptarm.toml:2: webhooks.allow \"10.0.0.0/33\": /33 is outside the allowed range /0 to /32",
+            "adaptarm.toml:2: webhooks.allow \"10.0.0.0/33\": has a prefix that is not 0 to 32 (IPv4) or 0 to 128 (IPv6); allowed: an address, a",
         ),
         (
             "[webhooks]\nallow = [1]",
@@ -197,16 +197,33 @@ fn what_is_printed_as_in_force_reads_back_as_the_same() {
 }
 
 #[test]
-fn allowed_hosts_allow_what_they_say() {
-    let allows =
-        |rule: &str, address: &str| rule.parse::<AllowedHost>().unwrap().allows_address(address.parse().unwrap());
-    assert!(allows("10.0.0.0/8", "10.1.2.3") && !allows("10.0.0.0/8", "11.0.0.1"));
-    assert!(allows("10.0.0.1", "10.0.0.1") && !allows("10.0.0.1", "10.0.0.2"));
-    assert!(allows("10.0.0.0/8", "::ffff:10.1.2.3"), "the same address, written for IPv6");
-    assert!(allows("fd00::/8", "fd12::1") && !allows("fd00::/8", "fe80::1") && !allows("0.0.0.0/0", "::1"));
-    let name: AllowedHost = "Hooks.lab".parse().unwrap();
-    assert!(name.allows_name("hooks.LAB.") && !name.allows_name("x.hooks.lab"));
-    for bad in ["", "a b", "a..b", "https://a", "a/8", "10.0.0.0/x", "::1/129", "[::1]"] {
-        assert!(bad.parse::<AllowedHost>().is_err(), "{bad}");
+fn everything_is_in_the_data_folder_unless_it_is_elsewhere() {
+    let config = load("data = \"d\"", &[], &[]).unwrap().config;
+    assert_eq!(config.database_file(), Some("d/adaptarm.sqlite3".into()));
+    assert_eq!(config.results_place(), Some(ResultsPlace::Folder("d/results".into())));
+    let config = load("data = \"d\"\nresults = \"s3://bucket/\"", &[], &[]).unwrap().config;
+    assert_eq!(config.results_place(), Some(ResultsPlace::S3 { bucket: "bucket".into(), prefix: String::new() }));
+    assert_eq!(Config::default().results_place(), None);
+}
+
+#[test]
+fn webhooks_follow_their_settings() {
+    let webhooks = load("[webhooks]\nallow = [\"10.0.0.0/8\"]\nfirst_retry_s = 0.5", &[], &[]).unwrap().config.webhooks;
+    assert_eq!(webhooks.timing().first_pause, Duration::from_millis(500));
+    let reaches =
+        |webhooks: &Webhooks, url: &str| webhooks.policy().unwrap().check_literal(&url.parse().unwrap()).is_ok();
+    assert!(reaches(&webhooks, "http://10.1.2.3/") && !reaches(&webhooks, "http://192.168.0.1/"));
+    assert!(reaches(&Webhooks { allow_all: true, ..webhooks }, "http://192.168.0.1/"));
+}
+
+#[test]
+fn text_that_is_not_unicode_is_refused_where_it_matters() {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStringExt;
+        let strange = std::ffi::OsString::from_vec(b"/data/\xff".to_vec());
+        let environment = vec![("OTHER".to_owned(), strange.clone()), ("ADAPTARM_DATA".to_owned(), strange)];
+        let told = Sources { environment, ..Sources::default() }.load().unwrap_err().to_string();
+        assert_eq!(told, "variable ADAPTARM_DATA: data: found something that is not UTF-8, expected a text");
     }
 }
