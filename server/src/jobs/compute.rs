@@ -1,7 +1,7 @@
 //! Computing one scenario on a thread of the pool, able to pause between two slices.
 
 use crate::results::{Checkpoint, Encoded};
-use adaptarm_core::scenario::{Report, Scenario};
+use adaptarm_core::scenario::Report;
 use adaptarm_core::simulation::Snapshot;
 use bytes::Bytes;
 use std::any::Any;
@@ -30,11 +30,22 @@ impl Control {
     }
 }
 
+/// A scenario that is done.
+#[derive(Debug)]
+pub(super) struct Finished {
+    /// The report.
+    pub(super) report: Report,
+    /// The samples.
+    pub(super) encoded: Encoded,
+    /// Time of the arm's movement, s.
+    pub(super) simulated_s: f64,
+}
+
 /// How a stretch of computing ended.
 #[derive(Debug)]
 pub(super) enum Stretch {
     /// With the scenario done.
-    Finished(Box<Report>, Encoded),
+    Finished(Box<Finished>),
     /// On request: how far it came, as bytes and as it is.
     Paused(Bytes, Box<Snapshot>),
     /// With an error that another try would meet again.
@@ -69,9 +80,10 @@ fn try_compute(n: i64, document: &str, from: Option<Snapshot>, control: &Control
             return Ok(Stretch::Paused(bytes, Box::new(checkpoint.snapshot)));
         }
     }
+    let simulated_s = simulation.time_s();
     let run = scenario.finish(simulation);
     let encoded = Encoded::new(&run.report, &run.recording).map_err(|error| error.to_string())?;
-    Ok(Stretch::Finished(Box::new(run.report), encoded))
+    Ok(Stretch::Finished(Box::new(Finished { report: run.report, encoded, simulated_s })))
 }
 
 /// What a panic said.

@@ -15,15 +15,14 @@ mod study;
 mod upkeep;
 
 pub use engine::{Engine, EngineSettings};
-pub use plan::{SHARD_TARGET_US, Shard, plan, step_cost_us};
-pub use queue::{Queue, WEBHOOKS};
+pub use queue::{Handler, Queue, WEBHOOKS};
 pub use sql::connect;
 pub use store::{
     Claim, Delivered, Event, EventKind, Filter, JobStore, NewJob, NewScenario, Order, Pulse, ScenarioRow, StoreError,
     StoredResult, StoredToken, Submitted, Tick,
 };
 pub use study::{Study, StudyError};
-pub use upkeep::collect_garbage;
+pub use upkeep::{Forgotten, collect_garbage};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};

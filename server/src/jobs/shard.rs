@@ -1,11 +1,11 @@
 //! Working on one shard: computing its scenarios one after another, telling the store how far it is, and letting go of it
 //! when the store says so.
 
-use super::compute::{Control, Stretch, compute};
+use super::compute::{Control, Finished, Stretch, compute};
 use super::engine::Shared;
 use super::{Claim, Order, StoreError, StoredResult, Tick};
-use crate::results::{Encoded, ResultError};
-use adaptarm_core::scenario::Report;
+use crate::metrics;
+use crate::results::ResultError;
 use adaptarm_core::simulation::Snapshot;
 use bytes::Bytes;
 use std::future::Future;
@@ -57,7 +57,7 @@ pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
             tracing::warn!(job = %claim.job, shard = claim.shard, "left to its lease: {error}");
         }
     }
-    crate::metrics::shard_done(began.elapsed());
+    metrics::shard_took(began.elapsed());
 }
 
 struct Worker<'a> {
@@ -80,8 +80,8 @@ impl Worker<'_> {
         let mut saved = checkpoint.is_some();
         for (n, document) in &self.claim.scenarios {
             let from = checkpoint.take_if(|checkpoint| checkpoint.n == *n).map(|checkpoint| checkpoint.snapshot);
-            let (report, encoded) = self.scenario(*n, document, from, &mut saved).await?;
-            self.deliver(*n, report, encoded).await?;
+            let finished = self.scenario(*n, document, from, &mut saved).await?;
+            self.deliver(*n, *finished).await?;
         }
         if saved && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await {
             tracing::warn!(job = %self.claim.job, "cannot remove a checkpoint that is done with: {error}");
@@ -96,7 +96,7 @@ impl Worker<'_> {
         document: &str,
         mut from: Option<Snapshot>,
         saved: &mut bool,
-    ) -> Result<(Box<Report>, Encoded), Stopped> {
+    ) -> Result<Box<Finished>, Stopped> {
         let mut interval = self.shared.settings.slice;
         loop {
             let control = Arc::new(Control::default());
@@ -108,7 +108,7 @@ impl Worker<'_> {
             });
             let (stretch, order) = self.watch(receiver, &control, interval).await?;
             let (bytes, snapshot) = match stretch {
-                Stretch::Finished(report, encoded) => return Ok((report, encoded)),
+                Stretch::Finished(finished) => return Ok(finished),
                 Stretch::Failed(reason) => return Err(Stopped::Failed(reason)),
                 Stretch::Paused(bytes, snapshot) => (bytes, snapshot),
             };
@@ -181,7 +181,7 @@ impl Worker<'_> {
     }
 
     /// Stores a scenario's result, then tells that it is there.
-    async fn deliver(&mut self, n: i64, report: Box<Report>, encoded: Encoded) -> Result<(), Stopped> {
+    async fn deliver(&mut self, n: i64, Finished { report, encoded, simulated_s }: Finished) -> Result<(), Stopped> {
         let deadline = Instant::now() + RETRY_FOR;
         let mut pause = RETRY_FIRST;
         while let Err(error) = self.shared.results.put(&report, &encoded).await {
@@ -196,9 +196,10 @@ impl Worker<'_> {
                 return Err(Stopped::Lost);
             }
         }
-        crate::metrics::result_stored(encoded.bytes.len() as u64, &report);
+        metrics::result_stored(encoded.bytes.len() as u64);
+        metrics::simulated(simulated_s, report.steps);
         let computed = std::mem::replace(&mut self.since_tick, Instant::now()).elapsed();
-        let result = StoredResult { n, report: *report, bytes: encoded.bytes.len() as u64, checksum: encoded.checksum };
+        let result = StoredResult { n, report, bytes: encoded.bytes.len() as u64, checksum: encoded.checksum };
         let delivered = retry(|| self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
         self.counted = 0;
         match delivered.map_err(Stopped::Unreachable)? {

@@ -6,7 +6,7 @@
 use super::{Job, JobKind, JobState};
 use crate::config::Limits;
 use crate::webhooks::Webhook;
-use adaptarm_core::scenario::Report;
+use adaptarm_core::scenario::{Report, Scenario};
 use async_trait::async_trait;
 use jiff::Timestamp;
 use std::time::Duration;
@@ -70,6 +70,19 @@ pub struct NewScenario {
     pub steps: u64,
     /// Expected computing time, µs.
     pub cost_us: f64,
+}
+
+impl NewScenario {
+    /// A scenario as a job holds it.
+    pub fn of(scenario: &Scenario) -> Self {
+        Self {
+            hash: scenario.hash(),
+            // Strings, numbers and lists always become JSON.
+            document: serde_json::to_string(scenario.document()).unwrap_or_default(),
+            steps: scenario.settings().steps(),
+            cost_us: super::plan::cost_us(scenario),
+        }
+    }
 }
 
 /// A job that is asked for.

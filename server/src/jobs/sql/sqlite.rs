@@ -31,7 +31,7 @@ pub(super) async fn open(path: &Path) -> Result<SqlStore, StoreError> {
         .busy_timeout(Duration::from_secs(30));
     // One writer: waiting in the pool's fair queue beats SQLite's polling for the lock.
     let write = SqlitePoolOptions::new().max_connections(1).connect_with(options.clone()).await?;
-    let migrator = sqlx::migrate!("migrations/sqlite");
+    let mut migrator = sqlx::migrate!("migrations/sqlite");
     migrator.dangerous_set_table_name("adaptarm_migrations");
     migrator.run(&write).await?;
     // Not its `setup`, which switches durability off for the whole connection.
