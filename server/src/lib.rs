@@ -20,3 +20,4 @@ pub mod routes;
 pub mod state;
 pub mod stdout;
 pub mod telemetry;
+pub mod webhooks;
