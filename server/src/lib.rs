@@ -13,6 +13,7 @@ pub mod figures;
 pub mod guard;
 pub mod jobs;
 pub mod listener;
+pub mod metrics;
 pub mod replicate;
 pub mod router;
 pub mod routes;
