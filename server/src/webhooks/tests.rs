@@ -192,6 +192,17 @@ async fn slow_and_absent_receivers_do_not_hold_the_sender() {
 }
 
 #[tokio::test]
+async fn https_is_spoken_and_never_falls_back_to_plain_text() {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.unwrap();
+    let call = delivery(format!("https://{}/", listener.local_addr().unwrap()));
+    let hello = tokio::spawn(async move { listener.accept().await.unwrap().0.read_u8().await.unwrap() });
+    let (_, why) = retried(sender(&["127.0.0.1"]).deliver(&call).await);
+    assert!(why.starts_with("cannot connect: "), "{why}");
+    // The first byte of a TLS handshake.
+    assert_eq!(hello.await.unwrap(), 0x16);
+}
+
+#[tokio::test]
 async fn an_endless_answer_is_not_read_to_its_end() {
     let answer = format!("HTTP/1.1 200 OK\r\ncontent-length: 9999999999\r\n\r\n{}", "x".repeat(1 << 20));
     let receiver = Receiver::answering(answer).await;
