@@ -10,4 +10,4 @@ mod token;
 pub use owner::{Owner, OwnerError};
 pub use rate::{FailureLimiter, Rate, RateLimiter};
 pub use scope::{Scope, ScopeError, Scopes};
-pub use token::{Denied, Presented, Token, TokenError, TokenId, TokenText};
+pub use token::{Denied, Presented, SecretHash, Token, TokenError, TokenId, TokenText};

@@ -42,10 +42,14 @@ pub struct Token {
     pub expires_at: Option<Timestamp>,
     /// Since when it has been withdrawn, if it has.
     pub revoked_at: Option<Timestamp>,
-    /// SHA-256 of the secret's 32 bytes.
+    /// Recognises its secret.
     #[serde(skip)]
-    pub secret_sha256: [u8; 32],
+    pub secret_hash: SecretHash,
 }
+
+/// SHA-256 of a secret's 32 bytes. Written as 64 hexadecimal digits, for storage only.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct SecretHash([u8; 32]);
 
 /// A new token's text, to be shown once. Only [`TokenText::reveal`] gives it away.
 pub struct TokenText(String);
@@ -84,6 +88,9 @@ pub enum TokenError {
     /// Not of an identifier's form.
     #[error("not a token's identifier: 12 hexadecimal digits in lower case are needed")]
     Id,
+    /// Not of a stored hash's form.
+    #[error("not the hash of a token's secret: 64 hexadecimal digits in lower case are needed")]
+    Hash,
     /// The system gave no random numbers.
     #[error("the system gives no random numbers: {0}")]
     Random(#[from] SysError),
@@ -127,14 +134,14 @@ impl Token {
         SysRng.try_fill_bytes(&mut secret)?;
         let id = TokenId(id);
         let text = TokenText(format!("{PREFIX}{id}_{}", hex::encode(secret)));
-        let (name, secret_sha256) = (name.to_owned(), Sha256::digest(secret).into());
-        Ok((Self { id, owner, name, scopes, created_at: now, expires_at, revoked_at: None, secret_sha256 }, text))
+        let (name, secret_hash) = (name.to_owned(), SecretHash::of(&secret));
+        Ok((Self { id, owner, name, scopes, created_at: now, expires_at, revoked_at: None, secret_hash }, text))
     }
 
     /// Whether `presented` is this token and is good now.
     pub fn check(&self, presented: &Presented, now: Timestamp) -> Result<(), Denied> {
-        let digest = Sha256::digest(presented.secret);
-        if presented.id != self.id || !bool::from(digest.as_slice().ct_eq(&self.secret_sha256)) {
+        let fits = SecretHash::of(&presented.secret).0.ct_eq(&self.secret_hash.0);
+        if presented.id != self.id || !bool::from(fits) {
             return Err(Denied::Unknown);
         }
         if self.revoked_at.is_some() {
@@ -152,6 +159,32 @@ impl Token {
 impl fmt::Debug for Token {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Token").field("id", &self.id).field("owner", &self.owner).finish_non_exhaustive()
+    }
+}
+
+impl SecretHash {
+    fn of(secret: &[u8; 32]) -> Self {
+        Self(Sha256::digest(secret).into())
+    }
+}
+
+impl FromStr for SecretHash {
+    type Err = TokenError;
+
+    fn from_str(text: &str) -> Result<Self, TokenError> {
+        digits(text).map(Self).ok_or(TokenError::Hash)
+    }
+}
+
+impl fmt::Display for SecretHash {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&hex::encode(self.0))
+    }
+}
+
+impl fmt::Debug for SecretHash {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("SecretHash(hidden)")
     }
 }
 
@@ -276,11 +309,13 @@ mod tests {
         let ids: BTreeSet<_> = tokens.iter().map(|(token, _)| token.id).collect();
         assert_eq!((secrets.len(), ids.len()), (50, 50));
         let (token, text) = &tokens[0];
-        let (secret, digest) = (text.reveal().rsplit_once('_').unwrap().1, hex::encode(token.secret_sha256));
+        let (secret, digest) = (text.reveal().rsplit_once('_').unwrap().1, token.secret_hash.to_string());
         let presented = Presented::parse(text.reveal()).unwrap();
         let json = serde_json::to_string(token).unwrap();
         assert_ne!(secret, digest);
-        for shown in [format!("{token:?} {text:?} {presented:?}"), json] {
+        assert_eq!(digest.parse::<SecretHash>().unwrap(), token.secret_hash);
+        assert!(matches!(digest[1..].parse::<SecretHash>(), Err(TokenError::Hash)));
+        for shown in [format!("{token:?} {:?} {text:?} {presented:?}", token.secret_hash), json] {
             assert!(!shown.contains(secret) && !shown.contains(&digest), "{shown}");
         }
     }
