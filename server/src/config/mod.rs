@@ -31,7 +31,7 @@ section! {
     Config [""] {
         /// Address and port to listen on; port 0 means any free one.
         bind: SocketAddr = SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)), Rule::text(check_address);
-        /// Folder for the database (adaptarm.sqlite3) and for results, made if it does not exist.
+        /// Folder for the database (adaptarm.sqlite3) and for results, made if it does not exist; adaptarm-data if not set.
         data: Option<PathBuf> = None, Rule::text(check_folder).example(r#""/var/lib/adaptarm""#);
         /// PostgreSQL database in place of the file in the data folder; several machines need one.
         database: Option<DatabaseUrl> = None,
@@ -157,17 +157,6 @@ impl Config {
     /// Threads that simulate.
     pub fn thread_count(&self) -> usize {
         self.threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from))
-    }
-
-    /// The database's file in the data folder; of no use where there is a `database`.
-    pub fn database_file(&self) -> Option<PathBuf> {
-        self.data.as_ref().map(|data| data.join("adaptarm.sqlite3"))
-    }
-
-    /// Where recordings are kept: in `results`, or else in the data folder.
-    pub fn results_place(&self) -> Option<ResultsPlace> {
-        let in_data = || self.data.as_ref().map(|data| ResultsPlace::Folder(data.join("results")));
-        self.results.clone().or_else(in_data)
     }
 }
 

@@ -197,16 +197,6 @@ fn what_is_printed_as_in_force_reads_back_as_the_same() {
 }
 
 #[test]
-fn everything_is_in_the_data_folder_unless_it_is_elsewhere() {
-    let config = load("data = \"d\"", &[], &[]).unwrap().config;
-    assert_eq!(config.database_file(), Some("d/adaptarm.sqlite3".into()));
-    assert_eq!(config.results_place(), Some(ResultsPlace::Folder("d/results".into())));
-    let config = load("data = \"d\"\nresults = \"s3://bucket/\"", &[], &[]).unwrap().config;
-    assert_eq!(config.results_place(), Some(ResultsPlace::S3 { bucket: "bucket".into(), prefix: String::new() }));
-    assert_eq!(Config::default().results_place(), None);
-}
-
-#[test]
 fn webhooks_follow_their_settings() {
     let webhooks = load("[webhooks]\nallow = [\"10.0.0.0/8\"]\nfirst_retry_s = 0.5", &[], &[]).unwrap().config.webhooks;
     assert_eq!(webhooks.timing().first_pause, Duration::from_millis(500));
