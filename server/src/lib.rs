@@ -6,8 +6,10 @@
 pub mod api;
 pub mod assets;
 pub mod commands;
+pub mod compression;
 pub mod config;
 pub mod document;
+pub mod download;
 pub mod error;
 pub mod figures;
 pub mod guard;
@@ -16,6 +18,7 @@ pub mod listener;
 pub mod replicate;
 pub mod router;
 pub mod routes;
+pub mod series;
 pub mod state;
 pub mod stdout;
 pub mod telemetry;

@@ -122,11 +122,3 @@ impl<'a> From<&'a StudyResult> for StudyResultView<'a> {
         Self { format: "adaptarm.study/1", reports: &result.reports }
     }
 }
-
-/// Which scenario's samples.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SeriesQuery {
-    /// Number of the scenario; the first is 0.
-    pub scenario: usize,
-}

@@ -2,7 +2,6 @@
 
 pub mod catalog;
 pub mod jobs;
-pub mod series;
 
 use crate::config::DOCUMENT_BYTES;
 use crate::document;

@@ -1,13 +1,14 @@
 //! Submitting jobs, looking at them, stopping them, reading their results.
 
-use crate::api::jobs::{JobRequest, JobView, SeriesQuery, StudyResultView, location};
-use crate::api::{self, Name, series::csv};
+use crate::api::jobs::{JobRequest, JobView, StudyResultView, location};
+use crate::api::{self, Name};
 use crate::error::Problem;
 use crate::jobs::{Job, JobState, StoreError, StudyResult};
+use crate::series::{SeriesQuery, SeriesRequest};
 use crate::state::AppState;
 use axum::Json;
 use axum::extract::{Query, State, rejection::QueryRejection};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 use uuid::Uuid;
@@ -47,19 +48,22 @@ pub(super) async fn series(
     State(state): State<AppState>,
     Name(id): Name,
     query: Result<Query<SeriesQuery>, QueryRejection>,
+    headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let Query(SeriesQuery { scenario }) =
-        query.map_err(|error| Problem::status(StatusCode::BAD_REQUEST, error.body_text()))?;
+    let Query(query) = query.map_err(|error| Problem::status(StatusCode::BAD_REQUEST, error.body_text()))?;
+    let scenario = query.scenario;
     let result = find_result(&state, &id).await?;
-    if scenario >= result.reports.len() {
-        return Err(Problem::not_found("scenario in this job called", &scenario.to_string()));
+    let report = result.reports.get(scenario);
+    let report = report.ok_or_else(|| Problem::not_found("scenario in this job called", &scenario.to_string()))?;
+    let request = SeriesRequest::new(&query, report)?;
+    if let Some(response) = request.not_modified(&headers) {
+        return Ok(response);
     }
     if result.recordings.is_empty() {
         let detail = "samples are kept for the newest jobs only; the same scenario gives the same samples again";
         return Err(Problem::new(StatusCode::GONE, "/problems/gone", "No longer kept", detail));
     }
-    let media_type = HeaderValue::from_static("text/csv; charset=utf-8; header=present");
-    Ok(([(header::CONTENT_TYPE, media_type)], csv(result, scenario)).into_response())
+    request.respond(Arc::new(result.recordings[scenario].clone()), &headers).await
 }
 
 fn no_job(id: &str) -> Problem {

@@ -4,12 +4,12 @@ mod catalog;
 mod health;
 mod jobs;
 
+use crate::compression;
 use crate::error::Problem;
 use crate::state::AppState;
 use axum::Router;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::routing::{get, post};
-use tower_http::compression::CompressionLayer;
 
 /// The API, whose index is found with and without a slash at the end.
 pub fn api() -> Router<AppState> {
@@ -31,10 +31,11 @@ pub fn api() -> Router<AppState> {
         .route("/api/v1/", get(catalog::index))
         .layer(axum::middleware::map_response(|mut response: axum::response::Response| async {
             // A job's state changes between two looks at it.
-            response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+            response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
             response
         }))
-        .layer(CompressionLayer::new())
+        .layer(compression::layer())
+        .layer(axum::middleware::map_response(compression::weaken_tag))
 }
 
 /// What watches over servers asks at the top level.
