@@ -142,7 +142,9 @@ fn is_of_a_service(variable: &str) -> bool {
 }
 
 fn unknown(place: String, section: &str, name: &str, settings: &[&'static Setting]) -> ConfigError {
-    let key = if section.is_empty() { name.to_owned() } else { format!("{section}.{name}") };
+    // Quoted keys can hold anything, and the message is one line.
+    let name = name.escape_debug();
+    let key = if section.is_empty() { name.to_string() } else { format!("{section}.{name}") };
     let mut allowed: Vec<_> =
         settings.iter().filter(|setting| setting.section == section).map(|setting| setting.name).collect();
     if section.is_empty() {

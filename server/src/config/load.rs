@@ -1,9 +1,9 @@
 //! From layers to settings: the file below the environment below flags, and then what only shows when all are together.
 
+use super::Config;
 use super::error::ConfigError;
 use super::layers::Layer;
 use super::setting::Setting;
-use super::{Config, print};
 use crate::document::read_file;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -121,10 +121,5 @@ impl Loaded {
         let place = [second.0, first.0].iter().find_map(|key| self.places.get(*key)).cloned().unwrap_or_default();
         let message = format!("{} = {} {relation} {} = {}", first.0, first.1, second.0, second.1);
         Err(ConfigError::Conflict { place, message })
-    }
-
-    /// As `adaptarm config check` prints it.
-    pub fn to_toml(&self) -> String {
-        print::effective(self)
     }
 }

@@ -1,6 +1,7 @@
 //! What users write, and what they are told when it is wrong.
 
 use super::*;
+use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::io::Write;
 
@@ -215,5 +216,29 @@ fn text_that_is_not_unicode_is_refused_where_it_matters() {
         let environment = vec![("OTHER".to_owned(), strange.clone()), ("ADAPTARM_DATA".to_owned(), strange)];
         let told = Sources { environment, ..Sources::default() }.load().unwrap_err().to_string();
         assert_eq!(told, "variable ADAPTARM_DATA: data: found something that is not UTF-8, expected a text");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn whatever_stands_in_a_file_is_read_or_refused_in_one_line(
+        text in prop_oneof![
+            // Any text; a line of our own with any value; the example with something cut out of it.
+            "\\PC{0,60}",
+            ("(bind|database|results|threads|limits|log\\.filter|queue\\.lease_s|webhooks\\.allow)", "\\PC{0,30}")
+                .prop_map(|(key, value)| format!("{key} = {value}")),
+            (any::<prop::sample::Index>(), 0..40_usize).prop_map(|(at, length)| {
+                let characters: Vec<_> = example().chars().collect();
+                let at = at.index(characters.len());
+                characters.iter().take(at).chain(characters.iter().skip(at + length)).collect()
+            }),
+            "\"[^\"]{1,10}\" = 1",
+        ]
+    ) {
+        if let Err(message) = load(&text, &[], &[]) {
+            prop_assert!(!message.is_empty() && !message.contains('\n'), "{text:?}: {message:?}");
+        }
     }
 }
