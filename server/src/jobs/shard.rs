@@ -42,7 +42,7 @@ pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
     match worker.work().await {
         Ok(()) => {}
         Err(Stopped::Lost) => {
-            tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over")
+            tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over");
         }
         Err(Stopped::Yielded) => {
             if let Err(error) = retry(|| shared.store.release(claim)).await {

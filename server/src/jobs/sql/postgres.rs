@@ -47,6 +47,9 @@ pub(super) async fn open(url: &str) -> Result<SqlStore, StoreError> {
     Ok(SqlStore::new(pool.clone(), pool))
 }
 
+/// Whether writers take turns, so that joining what they write is worth it.
+pub(super) const ONE_WRITER: bool = false;
+
 /// Begins a transaction.
 pub(super) async fn begin(pool: &Pool) -> Result<sqlx::Transaction<'static, Db>, sqlx::Error> {
     pool.begin().await

@@ -40,6 +40,9 @@ pub(super) async fn open(path: &Path) -> Result<SqlStore, StoreError> {
     Ok(SqlStore::new(write, read))
 }
 
+/// Whether writers take turns, so that joining what they write is worth it.
+pub(super) const ONE_WRITER: bool = true;
+
 /// Begins a transaction that will write. Beginning as a reader and writing later could fail halfway.
 pub(super) async fn begin(pool: &Pool) -> Result<sqlx::Transaction<'static, Db>, sqlx::Error> {
     pool.begin_with("BEGIN IMMEDIATE").await

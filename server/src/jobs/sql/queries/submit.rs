@@ -10,16 +10,62 @@ use crate::jobs::{Job, JobState, NewJob, StoreError, Submitted};
 use adaptarm_core::scenario::Report;
 use sqlx::{FromRow, QueryBuilder, Row};
 use std::collections::BTreeMap;
+use tokio::sync::{mpsc, oneshot};
 use uuid::Uuid;
 
 /// Rows written or hashes asked for in one statement; databases bound the number of parameters.
 const BATCH: usize = 500;
 
-/// Accepts a job.
+/// Most jobs accepted in one transaction.
+pub(super) const TOGETHER: usize = 64;
+
+/// A job that waits to be accepted together with others.
+pub(super) struct Waiting {
+    /// The job.
+    pub(super) job: NewJob,
+    /// What it must keep to.
+    pub(super) limits: Limits,
+    /// Where its sender waits.
+    pub(super) answer: oneshot::Sender<Result<Submitted, StoreError>>,
+}
+
+/// Accepts whatever waits, many jobs in one transaction: with one writer, beginning and committing is most of the work.
+pub(super) async fn accept_together(pool: Pool, mut waiting: mpsc::Receiver<Waiting>) {
+    let mut batch = Vec::new();
+    while waiting.recv_many(&mut batch, TOGETHER).await > 0 {
+        let accepted = together(&pool, &batch).await;
+        let answers = accepted.unwrap_or_else(|error| {
+            // All of them or none: each is told the same.
+            let why = error.to_string();
+            batch.iter().map(|_| Err(StoreError::Queue(why.clone()))).collect()
+        });
+        for (Waiting { answer, .. }, accepted) in batch.drain(..).zip(answers) {
+            // Whoever went away meanwhile finds the job by its key.
+            let _ = answer.send(accepted);
+        }
+    }
+}
+
+/// Accepts these jobs in one transaction. What refuses one of them leaves no trace of it, and the others go on.
+async fn together(pool: &Pool, batch: &[Waiting]) -> Result<Vec<Result<Submitted, StoreError>>, StoreError> {
+    let mut transaction = begin(pool).await?;
+    let mut accepted = Vec::with_capacity(batch.len());
+    for Waiting { job, limits, .. } in batch {
+        match attempt(&mut transaction, job, limits).await {
+            Ok(submitted) => accepted.push(Ok(submitted)),
+            Err(refusal @ (StoreError::Quota { .. } | StoreError::KeyReused { .. })) => accepted.push(Err(refusal)),
+            Err(error) => return Err(error),
+        }
+    }
+    transaction.commit().await?;
+    Ok(accepted)
+}
+
+/// Accepts a job in a transaction of its own.
 pub(super) async fn submit(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
-    match attempt(pool, job, limits).await {
+    match alone(pool, job, limits).await {
         // Another request with the same key came first, a moment ago: now its job can be seen.
-        Err(StoreError::Database(error)) if is_doubled(&error) => attempt(pool, job, limits).await,
+        Err(StoreError::Database(error)) if is_doubled(&error) => alone(pool, job, limits).await,
         done => done,
     }
 }
@@ -28,9 +74,15 @@ fn is_doubled(error: &sqlx::Error) -> bool {
     error.as_database_error().is_some_and(sqlx::error::DatabaseError::is_unique_violation)
 }
 
-async fn attempt(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
+async fn alone(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
     let mut transaction = begin(pool).await?;
-    let connection = &mut *transaction;
+    let submitted = attempt(&mut transaction, job, limits).await?;
+    transaction.commit().await?;
+    Ok(submitted)
+}
+
+/// Accepts a job as part of a transaction. Every refusal comes before the first thing written.
+async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
     if let Some(job) = repeated(connection, job).await? {
         return Ok(Submitted { job, repeated: true });
     }
@@ -51,15 +103,13 @@ async fn attempt(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted
     }
     if !shards.is_empty() {
         wake(connection, shards.len()).await?;
-        transaction.commit().await?;
         return Ok(Submitted { job: accepted, repeated: false });
     }
     tell(connection, id, State::new(JobState::Succeeded), at).await?;
     let row: JobRow = sqlx::query_as(concat!("SELECT ", job_columns!(), " FROM job WHERE id = $1"))
         .bind(id.to_string())
-        .fetch_one(&mut *connection)
+        .fetch_one(connection)
         .await?;
-    transaction.commit().await?;
     Ok(Submitted { job: Job::try_from(row)?, repeated: false })
 }
 
