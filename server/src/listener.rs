@@ -2,7 +2,7 @@
 //!
 //! `axum::serve` has no limit on how long headers may take, so the few lines below do its work.
 
-use crate::config::{CONNECTIONS, DRAIN_TIMEOUT, HEADER_TIMEOUT};
+use crate::config::Server;
 use axum::Router;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -16,8 +16,8 @@ use tokio::sync::Semaphore;
 use tokio::time::{sleep, timeout};
 
 /// Serves `app` until `shutdown` is done, then waits for answers under way, but not for ever.
-pub async fn serve(listener: TcpListener, app: Router, shutdown: impl Future<Output = ()>) {
-    let connections = Arc::new(Semaphore::new(CONNECTIONS));
+pub async fn serve(listener: TcpListener, app: Router, limits: &Server, shutdown: impl Future<Output = ()>) {
+    let connections = Arc::new(Semaphore::new(limits.connections));
     let graceful = GracefulShutdown::new();
     let mut shutdown = std::pin::pin!(shutdown);
     loop {
@@ -27,7 +27,7 @@ pub async fn serve(listener: TcpListener, app: Router, shutdown: impl Future<Out
         };
         let Some((stream, permit)) = accepted else { continue };
         let mut builder = http1::Builder::new();
-        builder.timer(TokioTimer::new()).header_read_timeout(HEADER_TIMEOUT);
+        builder.timer(TokioTimer::new()).header_read_timeout(limits.header_timeout());
         let connection = builder.serve_connection(TokioIo::new(stream), TowerToHyperService::new(app.clone()));
         let connection = graceful.watch(connection);
         tokio::spawn(async move {
@@ -39,8 +39,8 @@ pub async fn serve(listener: TcpListener, app: Router, shutdown: impl Future<Out
     }
     // Nobody who comes now should wait in vain.
     drop(listener);
-    if timeout(DRAIN_TIMEOUT, graceful.shutdown()).await.is_err() {
-        tracing::warn!("some requests were still under way after {} s", DRAIN_TIMEOUT.as_secs());
+    if timeout(limits.drain(), graceful.shutdown()).await.is_err() {
+        tracing::warn!("some requests were still under way after {} s", limits.drain_s);
     }
 }
 

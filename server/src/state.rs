@@ -1,8 +1,7 @@
 //! What every request can reach.
 
-use crate::config::Capacity;
 use crate::guard::Hosts;
-use crate::jobs::{Engine, MemoryStore};
+use crate::jobs::Engine;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,11 +19,6 @@ impl AppState {
     /// State around an engine.
     pub fn new(engine: Engine, hosts: Hosts) -> Self {
         Self { engine, hosts, draining: Arc::default() }
-    }
-
-    /// State with jobs in memory.
-    pub fn in_memory(capacity: Capacity, hosts: Hosts) -> anyhow::Result<Self> {
-        Ok(Self::new(Engine::new(Arc::new(MemoryStore::new(capacity)))?, hosts))
     }
 
     /// Tells whoever asks that this server is about to end.

@@ -1,5 +1,7 @@
 //! The command line: what can be asked, and what the exit code says about the answer.
 
+mod config;
+mod options;
 mod presets;
 mod run;
 mod serve;
@@ -43,6 +45,8 @@ enum Command {
     Replicate(ReplicateArgs),
     /// Serve the laboratory's page and its HTTP API.
     Serve(serve::Arguments),
+    /// Check the settings, or print an example file.
+    Config(config::Arguments),
 }
 
 /// Runs the program.
@@ -55,7 +59,8 @@ pub fn main() -> ExitCode {
             let message = format!("{error:#}");
             if error.is::<BadSettings>() { Failure::input(message) } else { Failure::system(message) }
         }),
-        Command::Serve(arguments) => serve::run(arguments),
+        Command::Serve(arguments) => serve::run(&arguments),
+        Command::Config(arguments) => config::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,14 +1,13 @@
 //! `adaptarm serve`: binds, announces the address, serves until told to stop, and lets answers under way finish.
 
 use super::Failure;
+use super::options::{ComputeOptions, StorageOptions};
 use crate::config::{Capacity, Config};
 use crate::guard::Hosts;
 use crate::state::AppState;
 use crate::stdout::print;
-use crate::{listener, router, telemetry};
+use crate::{listener, metrics, router, telemetry};
 use clap::Args;
-use std::net::{SocketAddr, ToSocketAddrs};
-use std::path::PathBuf;
 use tokio::net::TcpListener;
 
 #[derive(Debug, Args)]
@@ -16,28 +15,25 @@ use tokio::net::TcpListener;
 Examples:
   adaptarm serve                          http://127.0.0.1:8080
   adaptarm serve --bind 127.0.0.1:0       any free port; the first line printed names it
+  adaptarm serve --config adaptarm.toml   with settings from a file
   RUST_LOG=debug adaptarm serve           with more in the log, which goes to standard error
 
 Stop it with Ctrl-C or SIGTERM: requests under way are answered, unfinished jobs are dropped.
 Jobs and results are kept in memory and end with the process.")]
 pub(super) struct Arguments {
-    /// Address and port to listen on; port 0 means any free one.
-    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8080", env = "ADAPTARM_BIND", value_parser = address)]
-    bind: SocketAddr,
-    /// Folder reserved for results, made if it does not exist: this version keeps jobs in memory and stores nothing in it.
-    #[arg(long, value_name = "DIR", env = "ADAPTARM_DATA")]
-    data: Option<PathBuf>,
+    /// Address and port to listen on; port 0 means any free one [default: 127.0.0.1:8080, env: ADAPTARM_BIND].
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    bind: Option<String>,
+    #[command(flatten)]
+    storage: StorageOptions,
+    #[command(flatten)]
+    compute: ComputeOptions,
 }
 
-fn address(text: &str) -> Result<SocketAddr, String> {
-    let mut addresses = text
-        .to_socket_addrs()
-        .map_err(|error| format!("not an address with a port, such as 127.0.0.1:8080 or [::1]:8080 ({error})"))?;
-    addresses.next().ok_or_else(|| "this name has no address".to_owned())
-}
-
-pub(super) fn run(arguments: Arguments) -> Result<(), Failure> {
-    let config = Config { bind: arguments.bind, data: arguments.data, capacity: Capacity::default() };
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut flags = arguments.compute.flags();
+    flags.extend(arguments.bind.iter().map(|bind| ("bind", bind.clone())));
+    let config = arguments.storage.load(flags)?.config;
     if !config.bind.ip().is_loopback() {
         return Err(Failure::input(format!(
             "--bind {}: other machines could reach this address, and there are no accounts or keys yet to keep them \
@@ -45,9 +41,10 @@ pub(super) fn run(arguments: Arguments) -> Result<(), Failure> {
             config.bind
         )));
     }
-    telemetry::start();
+    telemetry::start(&config.log);
+    metrics::start();
     if let Some(data) = &config.data {
-        let failure = |error| Failure::system(format!("--data {}: cannot make this folder: {error}", data.display()));
+        let failure = |error| Failure::system(format!("data {}: cannot make this folder: {error}", data.display()));
         std::fs::create_dir_all(data).map_err(failure)?;
     }
     let runtime = tokio::runtime::Builder::new_multi_thread()
@@ -59,13 +56,15 @@ pub(super) fn run(arguments: Arguments) -> Result<(), Failure> {
 
 async fn serve(config: &Config) -> Result<(), Failure> {
     let shutdown = Shutdown::watch().map_err(|error| Failure::system(format!("cannot watch for signals: {error}")))?;
-    let failure = |error| Failure::system(format!("--bind {}: cannot listen there: {error}", config.bind));
+    let failure = |error| Failure::system(format!("bind {}: cannot listen there: {error}", config.bind));
     let listener = TcpListener::bind(config.bind).await.map_err(failure)?;
     let bound = listener.local_addr().map_err(failure)?;
-    let state = AppState::in_memory(config.capacity, Hosts::of(bound)).map_err(Failure::system)?;
+    let state = AppState::in_memory(Capacity::default(), Hosts::of(bound)).map_err(Failure::system)?;
     let app = router::build_app(state.clone());
+    let upkeep = tokio::spawn(metrics::keep_small());
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
-    listener::serve(listener, app, shutdown.wait(&state)).await;
+    listener::serve(listener, app, &config.server, shutdown.wait(&state)).await;
+    upkeep.abort();
     state.engine.stop();
     match state.engine.store().unfinished().await {
         Ok(0) | Err(_) => tracing::info!("stopped"),

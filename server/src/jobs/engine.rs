@@ -1,198 +1,243 @@
-//! Running jobs: a fixed number of threads, one task per scenario, in the order of arrival.
+//! The engine: a bounded pool of threads that works on whatever shard's turn it is, woken by the queue.
 //!
-//! Computation never happens inside a future. Between slices of a simulation the worker reports to the store and learns
-//! whether to go on, so a cancel takes effect within a slice. A scenario that panics fails its job, nothing else.
+//! Computation never happens inside a future. A shard that may have killed its process before is tried alone, so that it
+//! can take nothing else with it.
 
-use super::{Ending, Job, JobKind, JobStore, Order, StoreError, Study, StudyResult};
-use adaptarm_core::scenario::{Run, Scenario};
-use adaptarm_core::simulation::Simulation;
+use super::queue::{Handler, TICKETS};
+use super::shard;
+use super::{Claim, JobStore, NewJob, Queue, StoreError, Submitted};
+use crate::config::{Config, Limits};
+use crate::results::Results;
 use anyhow::Context;
 use rayon::ThreadPool;
-use std::any::Any;
-use std::ops::ControlFlow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::available_parallelism;
-use std::time::{Duration, Instant};
-use tokio::runtime::Handle;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
+use tokio::sync::{RwLock, Semaphore, watch};
+use tokio::task::JoinSet;
+use tokio::time::{interval, sleep, timeout};
 use uuid::Uuid;
 
-/// Steps between two looks at the clock: a few milliseconds.
-const SLICE_STEPS: u64 = 2_000;
+/// How long to wait before looking for work without having been told of any.
+const LOOK_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Time between two reports of one scenario.
-const REPORT_INTERVAL: Duration = Duration::from_millis(50);
+/// How long to wait before listening to the queue again after it failed.
+const LISTEN_AGAIN: Duration = Duration::from_secs(1);
 
-/// Jobs with tasks on the pool, canceled ones included: their tasks go only when a thread comes past them.
-const MOST_EXECUTIONS: usize = 256;
+/// A job with this label ends its process when it begins: tests prove by it that nothing else suffers.
+const ABORT_LABEL: &str = "ADAPTARM_TEST_ABORT_ON_LABEL";
 
-/// Simulates a scenario, looking up now and then; `None` if it was broken off there. Tests put others in its place.
-pub type Simulate = fn(&Scenario, &mut dyn FnMut(&Simulation) -> ControlFlow<()>) -> Option<Run>;
+/// What an engine keeps to.
+#[derive(Debug, Clone)]
+pub struct EngineSettings {
+    /// Threads; 0 only accepts jobs.
+    pub threads: usize,
+    /// For how long a claim holds without a sign of life.
+    pub lease: Duration,
+    /// Time between two signs of life.
+    pub heartbeat: Duration,
+    /// Time after which a shard saves its state and lets others have their turn.
+    pub slice: Duration,
+    /// Bounds on jobs and users.
+    pub limits: Limits,
+}
 
-/// The pool that jobs run on.
+impl EngineSettings {
+    /// As the configuration says.
+    pub fn of(config: &Config) -> Self {
+        Self {
+            threads: config.thread_count(),
+            lease: config.queue.lease(),
+            heartbeat: config.queue.heartbeat(),
+            slice: config.queue.slice(),
+            limits: config.limits.clone(),
+        }
+    }
+}
+
+/// What all work in this process shares.
+pub(super) struct Shared {
+    pub(super) store: Arc<dyn JobStore>,
+    pub(super) results: Results,
+    pub(super) settings: EngineSettings,
+    pub(super) pool: ThreadPool,
+    queue: Arc<dyn Queue>,
+    /// Name of this process in claims.
+    worker: String,
+    slots: Arc<Semaphore>,
+    /// Told of work while every slot was taken.
+    rung: AtomicBool,
+    /// Held by all for ordinary shards, by one for a suspect.
+    company: RwLock<()>,
+    suspects_waiting: AtomicUsize,
+    stopping: watch::Sender<bool>,
+    abort_label: Option<String>,
+}
+
+impl Shared {
+    /// Whether this process is about to end.
+    pub(super) fn is_stopping(&self) -> bool {
+        *self.stopping.borrow()
+    }
+
+    /// Whether a suspect waits for everything else to let go.
+    pub(super) fn is_wanted_alone(&self, claim: &Claim) -> bool {
+        !claim.suspect && self.suspects_waiting.load(Ordering::Relaxed) > 0
+    }
+}
+
+/// The engine; a clone is the same engine.
 #[derive(Clone)]
 pub struct Engine {
-    store: Arc<dyn JobStore>,
-    pool: Arc<ThreadPool>,
-    simulate: Simulate,
-    stopping: Arc<AtomicBool>,
-    /// One reference per execution, and ours.
-    executions: Arc<()>,
+    shared: Arc<Shared>,
 }
 
 impl Engine {
-    /// An engine with a thread per processor.
-    pub fn new(store: Arc<dyn JobStore>) -> anyhow::Result<Self> {
-        let simulate: Simulate = |scenario, look| scenario.run_in_slices(SLICE_STEPS, look);
-        Self::with(store, simulate, available_parallelism().map_or(1, usize::from))
-    }
-
-    /// An engine that simulates by `simulate` on `threads` threads.
-    pub fn with(store: Arc<dyn JobStore>, simulate: Simulate, threads: usize) -> anyhow::Result<Self> {
+    /// An engine at rest.
+    pub fn new(
+        store: Arc<dyn JobStore>,
+        queue: Arc<dyn Queue>,
+        results: Results,
+        settings: EngineSettings,
+    ) -> anyhow::Result<Self> {
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
+            .num_threads(settings.threads.max(1))
             .thread_name(|n| format!("simulation-{n}"))
             .build()
             .context("cannot start the simulation threads")?;
-        Ok(Self { store, pool: Arc::new(pool), simulate, stopping: Arc::default(), executions: Arc::default() })
+        let shared = Shared {
+            store,
+            results,
+            pool,
+            queue,
+            worker: format!("{}-{}", std::process::id(), Uuid::now_v7()),
+            slots: Arc::new(Semaphore::new(settings.threads)),
+            settings,
+            rung: AtomicBool::new(false),
+            company: RwLock::default(),
+            suspects_waiting: AtomicUsize::new(0),
+            stopping: watch::Sender::new(false),
+            abort_label: std::env::var(ABORT_LABEL).ok().filter(|label| !label.is_empty()),
+        };
+        Ok(Self { shared: Arc::new(shared) })
     }
 
     /// Where its jobs are kept.
     pub fn store(&self) -> &dyn JobStore {
-        &*self.store
+        &*self.shared.store
     }
 
-    /// Accepts a study; it runs when its turn comes. Must be called within a runtime.
-    pub async fn submit(&self, study: Study, label: Option<String>) -> Result<Job, StoreError> {
-        let executions = Arc::strong_count(&self.executions) - 1;
-        if executions >= MOST_EXECUTIONS {
-            return Err(StoreError::Full(executions));
-        }
-        let job = Job::new(JobKind::Study, label);
-        let study = Arc::new(study);
-        self.store.add(job.clone(), study.clone()).await?;
-        let count = study.scenarios().len();
-        let execution = Arc::new(Execution {
-            id: job.id,
-            store: self.store.clone(),
-            runtime: Handle::current(),
-            simulate: self.simulate,
-            stopping: self.stopping.clone(),
-            total_steps: study.steps().max(1) as f64,
-            study,
-            steps_done: (0..count).map(|_| AtomicU64::new(0)).collect(),
-            runs: Mutex::new((0..count).map(|_| None).collect()),
-            remaining: AtomicUsize::new(count),
-            _counted: self.executions.clone(),
-        });
-        for n in 0..count {
-            let execution = execution.clone();
-            self.pool.spawn_fifo(move || execution.perform(n));
-        }
-        Ok(job)
+    /// Where its results are kept.
+    pub fn results(&self) -> &Results {
+        &self.shared.results
     }
 
-    /// Makes every worker stop within a slice. Jobs that have not ended stay as they are.
-    pub fn stop(&self) {
-        self.stopping.store(true, Ordering::Relaxed);
+    /// What it keeps to.
+    pub fn settings(&self) -> &EngineSettings {
+        &self.shared.settings
     }
-}
 
-/// One job on the pool.
-struct Execution {
-    id: Uuid,
-    study: Arc<Study>,
-    store: Arc<dyn JobStore>,
-    /// The store is asynchronous; the pool's threads wait for it here.
-    runtime: Handle,
-    simulate: Simulate,
-    stopping: Arc<AtomicBool>,
-    total_steps: f64,
-    steps_done: Vec<AtomicU64>,
-    runs: Mutex<Vec<Option<Run>>>,
-    remaining: AtomicUsize,
-    _counted: Arc<()>,
-}
+    /// Accepts a job; it runs when its turn comes.
+    pub async fn submit(&self, job: NewJob) -> Result<Submitted, StoreError> {
+        self.shared.store.submit(job, &self.shared.settings.limits).await
+    }
 
-impl Execution {
-    /// Simulates scenario `n`; whoever does the last one ends the job.
-    fn perform(&self, n: usize) {
-        if self.begin() == Order::Stop {
+    /// Works until [`Self::stop`], then lets every shard save its state and go.
+    pub async fn run(&self) {
+        if self.shared.settings.threads == 0 {
+            let _ = self.shared.stopping.subscribe().wait_for(|stop| *stop).await;
             return;
         }
-        let mut reported = Instant::now();
-        let run = catch_unwind(AssertUnwindSafe(|| {
-            (self.simulate)(&self.study.scenarios()[n], &mut |simulation| {
-                if reported.elapsed() < REPORT_INTERVAL {
-                    return self.order().into();
+        let (wake, mut woken) = tokio::sync::mpsc::unbounded_channel();
+        let listener = tokio::spawn(listen(self.shared.clone(), wake));
+        let mut stopping = self.shared.stopping.subscribe();
+        let mut look = interval(LOOK_INTERVAL);
+        let mut slots = JoinSet::new();
+        loop {
+            tokio::select! {
+                _ = stopping.wait_for(|stop| *stop) => break,
+                _ = look.tick() => {}
+                Some(()) = woken.recv() => {}
+                Some(_) = slots.join_next() => continue,
+            }
+            match self.shared.slots.clone().try_acquire_owned() {
+                Ok(permit) => {
+                    let shared = self.shared.clone();
+                    slots.spawn(async move {
+                        drain(&shared).await;
+                        drop(permit);
+                    });
                 }
-                reported = Instant::now();
-                self.report(n, simulation.progress()).into()
-            })
-        }));
-        let failure = match run {
-            Ok(Some(run)) => {
-                self.runs.lock().unwrap_or_else(PoisonError::into_inner)[n] = Some(run);
-                self.report(n, 1.0);
-                None
-            }
-            Ok(None) => None,
-            Err(panic) => Some(format!("scenario {n} made the simulation fail: {}", words(&*panic))),
-        };
-        if let Some(reason) = failure {
-            tracing::error!(job = %self.id, "{reason}");
-            self.finish(Ending::Failed(reason));
-        }
-        // Everyone's runs are visible to whoever comes last.
-        if self.remaining.fetch_sub(1, Ordering::AcqRel) == 1 {
-            let runs = std::mem::take(&mut *self.runs.lock().unwrap_or_else(PoisonError::into_inner));
-            // Absent where the job was stopped or failed: then there is no result.
-            if let Some(runs) = runs.into_iter().collect() {
-                self.finish(Ending::Succeeded(StudyResult::new(runs)));
+                Err(_) => self.shared.rung.store(true, Ordering::Release),
             }
         }
+        while slots.join_next().await.is_some() {}
+        // It has heard of the end itself; what it still does is of no use to anyone.
+        listener.abort();
     }
 
-    fn order(&self) -> Order {
-        if self.stopping.load(Ordering::Relaxed) { Order::Stop } else { Order::Continue }
-    }
-
-    fn begin(&self) -> Order {
-        match self.order() {
-            Order::Stop => Order::Stop,
-            Order::Continue => self.obey(self.runtime.block_on(self.store.start(self.id))),
-        }
-    }
-
-    fn report(&self, n: usize, share: f64) -> Order {
-        let steps = self.study.scenarios()[n].settings().steps() as f64;
-        self.steps_done[n].store((share * steps) as u64, Ordering::Relaxed);
-        let done: u64 = self.steps_done.iter().map(|steps| steps.load(Ordering::Relaxed)).sum();
-        let progress = done as f64 / self.total_steps;
-        self.obey(self.runtime.block_on(self.store.report_progress(self.id, progress)))
-    }
-
-    fn finish(&self, ending: Ending) {
-        if let Err(error) = self.runtime.block_on(self.store.finish(self.id, ending)) {
-            tracing::error!(job = %self.id, "cannot note how the job ended: {error}");
-        }
-    }
-
-    /// The store's order; a store that cannot be asked is no reason to throw work away.
-    fn obey(&self, order: Result<Order, StoreError>) -> Order {
-        order.unwrap_or_else(|error| {
-            tracing::error!(job = %self.id, "cannot reach the job: {error}");
-            Order::Continue
-        })
+    /// Makes every shard save its state and go.
+    pub fn stop(&self) {
+        self.shared.stopping.send_replace(true);
     }
 }
 
-/// What a panic said.
-fn words(panic: &(dyn Any + Send)) -> &str {
-    panic
-        .downcast_ref::<String>()
-        .map(String::as_str)
-        .or_else(|| panic.downcast_ref::<&str>().copied())
-        .unwrap_or("it did not say why")
+/// Turns tickets into wake-ups, for as long as this process works.
+async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()>) {
+    let handler: Handler = Arc::new(move |_| {
+        // Nobody listens any more where the engine has stopped.
+        let _ = wake.send(());
+        Box::pin(std::future::ready(()))
+    });
+    while !shared.is_stopping() {
+        let stop = shared.stopping.subscribe();
+        let threads = shared.settings.threads;
+        if let Err(error) = shared.queue.run(TICKETS, &shared.worker, threads, handler.clone(), stop).await {
+            tracing::warn!("{error}; listening again");
+        }
+        let mut stop = shared.stopping.subscribe();
+        // Either way it is time to look again.
+        let _ = timeout(LISTEN_AGAIN, stop.wait_for(|stop| *stop)).await;
+    }
+}
+
+/// Works on one shard after another until none is left.
+async fn drain(shared: &Arc<Shared>) {
+    while !shared.is_stopping() {
+        let claim = match shared.store.claim(&shared.worker, shared.settings.lease).await {
+            Ok(claim) => claim,
+            Err(error) => {
+                tracing::warn!("cannot look for work: {error}");
+                sleep(LOOK_INTERVAL).await;
+                continue;
+            }
+        };
+        match claim {
+            Some(claim) => perform(shared, &claim).await,
+            // Someone rang while this slot was busy.
+            None if shared.rung.swap(false, Ordering::AcqRel) => {}
+            None => return,
+        }
+    }
+}
+
+/// Works on a shard, in company or alone.
+async fn perform(shared: &Arc<Shared>, claim: &Claim) {
+    if claim.suspect {
+        shared.suspects_waiting.fetch_add(1, Ordering::Relaxed);
+        let _alone = shared.company.write().await;
+        shared.suspects_waiting.fetch_sub(1, Ordering::Relaxed);
+        begin(shared, claim).await;
+    } else {
+        let _in_company = shared.company.read().await;
+        begin(shared, claim).await;
+    }
+}
+
+async fn begin(shared: &Arc<Shared>, claim: &Claim) {
+    if shared.abort_label.is_some() && shared.abort_label == claim.label {
+        tracing::error!(job = %claim.job, "{ABORT_LABEL} names this job's label: ending the process");
+        std::process::abort();
+    }
+    shard::work(shared, claim).await;
 }

@@ -1,53 +1,84 @@
-//! Jobs: work that outlives the request that asked for it.
+//! Jobs: work that outlives the request that asked for it, and the process that began it.
 //!
-//! [`Engine`] runs them on a bounded pool; [`JobStore`] remembers them. The store is the seam where a durable queue takes
-//! the place of memory: whoever works on a job learns what to do, and whether to go on, only through it.
+//! [`JobStore`] is the one seam: tables in SQLite or PostgreSQL that hold the truth about every job. [`Engine`] takes
+//! shards from it, computes them on a bounded pool and hands back what they gave; between the two stands nothing but
+//! the store's fences, so any process may die at any moment.
 
+mod compute;
 mod engine;
-mod memory;
+mod plan;
+mod queue;
+mod shard;
+mod sql;
 mod store;
 mod study;
+mod upkeep;
 
-pub use engine::{Engine, Simulate};
-pub use memory::MemoryStore;
-pub use store::{Ending, JobStore, Order, StoreError};
-pub use study::{STUDY_LIMITS, Study, StudyError, StudyLimits, StudyResult};
+pub use engine::{Engine, EngineSettings};
+pub use queue::{Handler, Queue, WEBHOOKS};
+pub use sql::connect;
+pub use store::{
+    Claim, Delivered, Event, EventKind, Filter, JobStore, NewJob, NewScenario, Order, Pulse, ScenarioRow, StoreError,
+    StoredResult, StoredToken, Submitted, Tick,
+};
+pub use study::{Study, StudyError};
+pub use upkeep::{Forgotten, collect_garbage};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
 /// What a job computes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JobKind {
     /// One or more scenarios, each simulated to its end.
     Study,
 }
 
+impl JobKind {
+    /// Every kind.
+    pub const ALL: [Self; 1] = [Self::Study];
+
+    /// Its name over HTTP and in the database.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Study => "study",
+        }
+    }
+
+    /// The kind of this name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.id() == id)
+    }
+}
+
 /// Where a job stands. The last three are final.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JobState {
     /// Waits for a free thread.
     Queued,
-    /// Is being computed.
+    /// Is being computed, or was and waits for its next turn.
     Running,
     /// Its whole result can be read.
     Succeeded,
-    /// Ended without a result.
+    /// Ended early; what had been computed by then can be read.
     Failed,
-    /// Stopped because someone asked.
+    /// Stopped because someone asked; what had been computed by then can be read.
     Canceled,
 }
 
 impl JobState {
+    /// Every state.
+    pub const ALL: [Self; 5] = [Self::Queued, Self::Running, Self::Succeeded, Self::Failed, Self::Canceled];
+
     /// Whether it will never change again.
     pub fn is_final(self) -> bool {
         !matches!(self, Self::Queued | Self::Running)
     }
 
-    /// Its name over HTTP.
+    /// Its name over HTTP and in the database.
     pub fn id(self) -> &'static str {
         match self {
             Self::Queued => "queued",
@@ -57,6 +88,11 @@ impl JobState {
             Self::Canceled => "canceled",
         }
     }
+
+    /// The state of this name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|state| state.id() == id)
+    }
 }
 
 /// A job as its owner sees it.
@@ -64,37 +100,45 @@ impl JobState {
 pub struct Job {
     /// Identifier; later jobs have larger ones.
     pub id: Uuid,
+    /// Whose it is.
+    pub owner: String,
     /// What it computes.
     pub kind: JobKind,
     /// Its owner's name for it.
     pub label: Option<String>,
+    /// Among its owner's jobs, larger ones go first.
+    pub priority: i64,
     /// Where it stands.
     pub state: JobState,
-    /// Share done, 0 to 1.
-    pub progress: f64,
-    /// Why it failed.
+    /// Why it failed or was canceled.
     pub reason: Option<String>,
+    /// Whether every scenario had been computed before it was submitted.
+    pub cached: bool,
+    /// Most often that any part of it was taken up.
+    pub attempts: i64,
     /// When it was accepted.
     pub created_at: Timestamp,
-    /// When its first scenario began.
+    /// When work on it began.
     pub started_at: Option<Timestamp>,
     /// When it reached a final state.
     pub finished_at: Option<Timestamp>,
+    /// How many scenarios it has.
+    pub scenarios: i64,
+    /// How many of them have a result.
+    pub scenarios_done: i64,
+    /// Integration steps of all scenarios.
+    pub steps_total: i64,
+    /// Integration steps done and kept.
+    pub steps_done: i64,
 }
 
 impl Job {
-    /// A job that has just been accepted.
-    pub fn new(kind: JobKind, label: Option<String>) -> Self {
-        Self {
-            id: Uuid::now_v7(),
-            kind,
-            label,
-            state: JobState::Queued,
-            progress: 0.0,
-            reason: None,
-            created_at: Timestamp::now(),
-            started_at: None,
-            finished_at: None,
+    /// Share done, 0 to 1; 1 only when it has succeeded.
+    pub fn progress(&self) -> f64 {
+        if self.state == JobState::Succeeded {
+            return 1.0;
         }
+        // An adaptive method may take more steps than were planned.
+        (self.steps_done as f64 / self.steps_total.max(1) as f64).clamp(0.0, 0.999)
     }
 }

@@ -1,26 +1,9 @@
 //! The job kind `study`: scenarios, each simulated to its end; a diverging one is a result like any other.
 
-use adaptarm_core::recording::Recording;
-use adaptarm_core::scenario::{Problem, Report, Run, Scenario, ScenarioDocument, ScenarioError};
-use serde::Serialize;
+use super::NewScenario;
+use crate::config::Limits;
+use adaptarm_core::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError};
 use thiserror::Error;
-
-/// Limits on one study, beside those on each scenario. All are inclusive.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct StudyLimits {
-    /// Fewest and most scenarios.
-    pub scenarios: [usize; 2],
-    /// Most integration steps of all scenarios together.
-    pub steps: u64,
-    /// Most samples of all scenarios together.
-    pub samples: usize,
-    /// Longest label, characters.
-    pub label_chars: usize,
-}
-
-/// The limits of this version: about an hour of one core, and 120 MB of samples.
-pub const STUDY_LIMITS: StudyLimits =
-    StudyLimits { scenarios: [1, 64], steps: 1_000_000_000, samples: 400_000, label_chars: 200 };
 
 /// Why there is no such study.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -50,12 +33,10 @@ pub struct Study {
 
 impl Study {
     /// Checks documents that a larger document holds at `pointer`.
-    pub fn new(documents: Vec<ScenarioDocument>, pointer: &str) -> Result<Self, StudyError> {
-        let [fewest, most] = STUDY_LIMITS.scenarios;
-        let count = documents.len();
-        if count < fewest {
-            let [min, max] = STUDY_LIMITS.scenarios.map(|count| count as f64);
-            let problem = Problem::OutOfRange { value: count as f64, min, max, unit: "scenarios" };
+    pub fn new(documents: Vec<ScenarioDocument>, pointer: &str, limits: &Limits) -> Result<Self, StudyError> {
+        let (count, most) = (documents.len(), limits.scenarios_per_job);
+        if count == 0 {
+            let problem = Problem::OutOfRange { value: 0.0, min: 1.0, max: most as f64, unit: "scenarios" };
             return Err(ScenarioError::new(pointer, problem).into());
         }
         check_total(pointer, "scenarios", count as u64, most as u64)?;
@@ -64,10 +45,15 @@ impl Study {
             scenarios.push(Scenario::new(document).map_err(|error| error.within(&format!("{pointer}/{n}")))?);
         }
         let study = Self { scenarios };
-        check_total(pointer, "integration steps", study.steps(), STUDY_LIMITS.steps)?;
+        check_total(pointer, "integration steps", study.steps(), limits.steps_per_job)?;
         let samples: usize = study.scenarios.iter().map(|scenario| scenario.settings().samples).sum();
-        check_total(pointer, "samples", samples as u64, STUDY_LIMITS.samples as u64)?;
+        check_total(pointer, "samples", samples as u64, limits.samples_per_job)?;
         Ok(study)
+    }
+
+    /// The scenarios as a job holds them. Takes a while for many: not for an async task.
+    pub fn into_new_scenarios(self) -> Vec<NewScenario> {
+        self.scenarios.iter().map(NewScenario::of).collect()
     }
 
     /// The scenarios, in the order of the result.
@@ -85,35 +71,17 @@ fn check_total(pointer: &str, what: &'static str, total: u64, most: u64) -> Resu
     if total <= most { Ok(()) } else { Err(StudyError::TooMuch { pointer: pointer.to_owned(), what, total, most }) }
 }
 
-/// What a study gave.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StudyResult {
-    /// One report per scenario.
-    pub reports: Vec<Report>,
-    /// One recording per scenario; empty once they have made room for newer ones.
-    pub recordings: Vec<Recording>,
-}
-
-impl StudyResult {
-    /// From the finished runs.
-    pub fn new(runs: Vec<Run>) -> Self {
-        let (reports, recordings) = runs.into_iter().map(|run| (run.report, run.recording)).unzip();
-        Self { reports, recordings }
-    }
-
-    /// Memory that the recordings take.
-    pub fn recording_bytes(&self) -> usize {
-        self.recordings.iter().map(|recording| size_of_val(recording.rows())).sum()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use adaptarm_core::scenario::Scheme;
 
+    fn limits() -> Limits {
+        Limits { scenarios_per_job: 64, steps_per_job: 1_000_000_000, samples_per_job: 400_000, ..Limits::default() }
+    }
+
     fn refusal(documents: Vec<ScenarioDocument>) -> String {
-        Study::new(documents, "/spec/scenarios").unwrap_err().to_string()
+        Study::new(documents, "/spec/scenarios", &limits()).unwrap_err().to_string()
     }
 
     #[test]

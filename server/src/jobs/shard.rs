@@ -1,0 +1,232 @@
+//! Working on one shard: computing its scenarios one after another, telling the store how far it is, and letting go of it
+//! when the store says so.
+
+use super::compute::{Control, Finished, Stretch, compute};
+use super::engine::Shared;
+use super::{Claim, Order, StoreError, StoredResult, Tick};
+use crate::metrics;
+use crate::results::ResultError;
+use adaptarm_core::simulation::Snapshot;
+use bytes::Bytes;
+use std::future::Future;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use tokio::sync::oneshot;
+use tokio::time::{sleep, timeout};
+
+/// A checkpoint may cost this share of the time between two of them.
+const CHECKPOINT_SHARE: u32 = 20;
+
+/// First and longest pause before something that failed is tried again, and how long to go on trying.
+const RETRY_FIRST: Duration = Duration::from_millis(100);
+const RETRY_LONGEST: Duration = Duration::from_secs(5);
+const RETRY_FOR: Duration = Duration::from_secs(120);
+
+/// How work on a shard ended, where it was not simply done.
+#[derive(Debug)]
+enum Stopped {
+    /// The claim does not hold any more, or the job has ended.
+    Lost,
+    /// Others wait, or this process is about to end: the state is saved and the shard is given back.
+    Yielded,
+    /// Its job must fail.
+    Failed(String),
+    /// The store cannot be reached: others will find the shard when its lease has run out.
+    Unreachable(StoreError),
+}
+
+/// Works on a shard until it is done or must be let go.
+pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
+    let began = Instant::now();
+    let mut worker = Worker { shared, claim, counted: claim.steps_done, since_tick: Instant::now() };
+    match worker.work().await {
+        Ok(()) => {}
+        Err(Stopped::Lost) => tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over"),
+        Err(Stopped::Yielded) => {
+            if let Err(error) = retry(|| shared.store.release(claim)).await {
+                tracing::warn!(job = %claim.job, shard = claim.shard, "cannot give the shard back: {error}");
+            }
+        }
+        Err(Stopped::Failed(reason)) => {
+            tracing::error!(job = %claim.job, shard = claim.shard, "{reason}");
+            if let Err(error) = retry(|| shared.store.fail(claim, &reason)).await {
+                tracing::warn!(job = %claim.job, shard = claim.shard, "cannot note that the job failed: {error}");
+            }
+        }
+        Err(Stopped::Unreachable(error)) => {
+            tracing::warn!(job = %claim.job, shard = claim.shard, "left to its lease: {error}");
+        }
+    }
+    metrics::shard_took(began.elapsed());
+}
+
+struct Worker<'a> {
+    shared: &'a Arc<Shared>,
+    claim: &'a Claim,
+    /// Steps of the scenario under way that the store has counted.
+    counted: i64,
+    since_tick: Instant,
+}
+
+impl Worker<'_> {
+    async fn work(&mut self) -> Result<(), Stopped> {
+        let mut checkpoint = match self.shared.results.load(self.claim.job, self.claim.shard).await {
+            Ok(checkpoint) => checkpoint,
+            Err(error) => {
+                tracing::warn!(job = %self.claim.job, "cannot use a checkpoint, only time is lost: {error}");
+                None
+            }
+        };
+        let mut saved = checkpoint.is_some();
+        for (n, document) in &self.claim.scenarios {
+            let from = checkpoint.take_if(|checkpoint| checkpoint.n == *n).map(|checkpoint| checkpoint.snapshot);
+            let finished = self.scenario(*n, document, from, &mut saved).await?;
+            self.deliver(*n, *finished).await?;
+        }
+        if saved && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await {
+            tracing::warn!(job = %self.claim.job, "cannot remove a checkpoint that is done with: {error}");
+        }
+        Ok(())
+    }
+
+    /// Computes one scenario, in stretches between which its state is saved.
+    async fn scenario(
+        &mut self,
+        n: i64,
+        document: &str,
+        mut from: Option<Snapshot>,
+        saved: &mut bool,
+    ) -> Result<Box<Finished>, Stopped> {
+        let mut interval = self.shared.settings.slice;
+        loop {
+            let control = Arc::new(Control::default());
+            let (sender, receiver) = oneshot::channel();
+            let (document, watched) = (document.to_owned(), control.clone());
+            self.shared.pool.spawn_fifo(move || {
+                // Nobody listens any more where the runtime has ended.
+                let _ = sender.send(compute(n, &document, from, &watched));
+            });
+            let (stretch, order) = self.watch(receiver, &control, interval).await?;
+            let (bytes, snapshot) = match stretch {
+                Stretch::Finished(finished) => return Ok(finished),
+                Stretch::Failed(reason) => return Err(Stopped::Failed(reason)),
+                Stretch::Paused(bytes, snapshot) => (bytes, snapshot),
+            };
+            if order == Order::Stop {
+                return Err(Stopped::Lost);
+            }
+            let began = Instant::now();
+            *saved |= self.save(bytes, &control).await?;
+            if order == Order::Yield {
+                return Err(Stopped::Yielded);
+            }
+            interval = self.shared.settings.slice.max(began.elapsed() * CHECKPOINT_SHARE);
+            from = Some(*snapshot);
+        }
+    }
+
+    /// Watches over a stretch of computing: tells the store that it goes on, and pauses it when it must.
+    async fn watch(
+        &mut self,
+        mut stretch: oneshot::Receiver<Stretch>,
+        control: &Control,
+        interval: Duration,
+    ) -> Result<(Stretch, Order), Stopped> {
+        let began = Instant::now();
+        let mut order = Order::Continue;
+        loop {
+            if let Ok(done) = timeout(self.shared.settings.heartbeat, &mut stretch).await {
+                let stretch = done.map_err(|_| Stopped::Failed("the computing thread ended without a word".to_owned()))?;
+                return Ok((stretch, order));
+            }
+            let turn_over = began.elapsed() >= interval;
+            match self.tick(control.steps(), false, turn_over).await {
+                Ok(Order::Continue) => {}
+                Ok(told) => order = told,
+                // Computing goes on: the fence decides in the end whether it was worth it.
+                Err(error) => tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}"),
+            }
+            if order == Order::Continue && (self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim)) {
+                order = Order::Yield;
+            }
+            if order != Order::Continue || turn_over {
+                control.pause();
+            }
+        }
+    }
+
+    async fn tick(&mut self, steps: u64, saved: bool, turn_over: bool) -> Result<Order, StoreError> {
+        let computed = std::mem::replace(&mut self.since_tick, Instant::now()).elapsed();
+        let tick = Tick { steps_done: steps as i64, steps_before: self.counted, computed, saved, turn_over };
+        let settings = &self.shared.settings;
+        let order = self.shared.store.tick(self.claim, tick, settings.lease, &settings.limits).await?;
+        self.counted = tick.steps_done;
+        Ok(order)
+    }
+
+    /// Saves how far the shard is. A full disk is no reason to stop computing: the result will show whether there is room.
+    async fn save(&mut self, bytes: Bytes, control: &Control) -> Result<bool, Stopped> {
+        let kept = self.shared.results.save(self.claim.job, self.claim.shard, bytes).await;
+        if let Err(error) = &kept {
+            tracing::warn!(job = %self.claim.job, shard = self.claim.shard, "cannot save a checkpoint: {error}");
+        }
+        match self.tick(control.steps(), kept.is_ok(), false).await {
+            Ok(Order::Stop) => Err(Stopped::Lost),
+            Ok(_) => Ok(kept.is_ok()),
+            Err(error) => {
+                tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}");
+                Ok(kept.is_ok())
+            }
+        }
+    }
+
+    /// Stores a scenario's result, then tells that it is there.
+    async fn deliver(&mut self, n: i64, Finished { report, encoded, simulated_s }: Finished) -> Result<(), Stopped> {
+        let deadline = Instant::now() + RETRY_FOR;
+        let mut pause = RETRY_FIRST;
+        while let Err(error) = self.shared.results.put(&report, &encoded).await {
+            let passing = matches!(error, ResultError::Unavailable(_)) && Instant::now() < deadline;
+            if !passing {
+                return Err(Stopped::Failed(format!("scenario {n}: {error}")));
+            }
+            tracing::warn!(job = %self.claim.job, "scenario {n}: {error}; trying again");
+            sleep(pause).await;
+            pause = (2 * pause).min(RETRY_LONGEST);
+            if matches!(self.tick(self.counted as u64, false, false).await, Ok(Order::Stop)) {
+                return Err(Stopped::Lost);
+            }
+        }
+        metrics::result_stored(encoded.bytes.len() as u64);
+        metrics::simulated(simulated_s, report.steps);
+        let computed = std::mem::replace(&mut self.since_tick, Instant::now()).elapsed();
+        let result = StoredResult { n, report, bytes: encoded.bytes.len() as u64, checksum: encoded.checksum };
+        let delivered = retry(|| self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
+        self.counted = 0;
+        match delivered.map_err(Stopped::Unreachable)? {
+            super::Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
+            _ if self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim) => {
+                if self.claim.scenarios.last().is_some_and(|(last, _)| *last == n) { Ok(()) } else { Err(Stopped::Yielded) }
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Tries again for a while what fails because the database cannot be reached.
+pub(super) async fn retry<T, F>(mut attempt: impl FnMut() -> F) -> Result<T, StoreError>
+where
+    F: Future<Output = Result<T, StoreError>>,
+{
+    let deadline = Instant::now() + RETRY_FOR;
+    let mut pause = RETRY_FIRST;
+    loop {
+        match attempt().await {
+            Err(StoreError::Database(error)) if Instant::now() < deadline => {
+                tracing::warn!("the database failed, trying again: {error}");
+                sleep(pause).await;
+                pause = (2 * pause).min(RETRY_LONGEST);
+            }
+            done => return done,
+        }
+    }
+}

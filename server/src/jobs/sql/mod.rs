@@ -1,0 +1,30 @@
+//! Jobs in tables, of SQLite on one machine or of PostgreSQL for many.
+//!
+//! The statements are the same: `queries/` is compiled once for each database, with what differs taken from `sqlite.rs`
+//! or `postgres.rs`. Every transaction touches the job's row before its shards, so none can wait for another in a circle.
+
+mod postgres;
+mod rows;
+mod sqlite;
+
+use super::{JobStore, Queue, StoreError};
+use crate::config::DatabaseUrl;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Opens the database and brings it to this version. A database in the data folder belongs to one process at a time.
+pub async fn connect(
+    database: Option<&DatabaseUrl>,
+    data: &Path,
+) -> Result<(Arc<dyn JobStore>, Arc<dyn Queue>), StoreError> {
+    match database {
+        None => {
+            let store = sqlite::open(&data.join("adaptarm.sqlite3")).await?;
+            Ok((Arc::new(store.clone()), Arc::new(store)))
+        }
+        Some(database) => {
+            let store = postgres::open(database.expose()).await?;
+            Ok((Arc::new(store.clone()), Arc::new(store)))
+        }
+    }
+}

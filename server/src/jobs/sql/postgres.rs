@@ -1,0 +1,79 @@
+//! What is special about PostgreSQL: many writers, its own clock, and telling others that there is work.
+
+use crate::jobs::StoreError;
+use apalis_core::task::Task;
+use apalis_postgres::queries::push_tasks;
+use apalis_postgres::PostgresStorage;
+use serde_json::Value;
+use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
+use std::time::Duration;
+
+pub(super) use apalis_postgres::Config as QueueConfig;
+pub(super) use sqlx::{PgConnection as Connection, PgPool as Pool, Postgres as Db};
+
+#[path = "queries/mod.rs"]
+mod queries;
+pub(super) use queries::SqlStore;
+
+/// Connections of one process.
+const CONNECTIONS: u32 = 16;
+
+/// Held while a shard is chosen. Any number will do, as long as nothing else in the database uses it.
+const CLAIM_LOCK: i64 = 0x0061_6461_7074_6172;
+
+/// Held while the tables are made: several processes may start at once.
+const MIGRATION_LOCK: i64 = CLAIM_LOCK + 1;
+
+/// Connects.
+pub(super) async fn open(url: &str) -> Result<SqlStore, StoreError> {
+    let options: PgConnectOptions = url.parse()?;
+    let pool = PgPoolOptions::new()
+        .max_connections(CONNECTIONS)
+        .acquire_timeout(Duration::from_secs(10))
+        .connect_with(options.application_name("adaptarm"))
+        .await?;
+    let mut held = pool.acquire().await?;
+    sqlx::query("SELECT pg_advisory_lock($1)").bind(MIGRATION_LOCK).execute(&mut *held).await?;
+    let migrated = async {
+        let mut migrator = sqlx::migrate!("migrations/postgres");
+        migrator.dangerous_set_table_name("adaptarm_migrations");
+        migrator.run(&pool).await?;
+        PostgresStorage::migrations().run(&pool).await
+    }
+    .await;
+    sqlx::query("SELECT pg_advisory_unlock($1)").bind(MIGRATION_LOCK).execute(&mut *held).await?;
+    migrated?;
+    drop(held);
+    Ok(SqlStore::new(pool.clone(), pool))
+}
+
+/// Begins a transaction.
+pub(super) async fn begin(pool: &Pool) -> Result<sqlx::Transaction<'static, Db>, sqlx::Error> {
+    pool.begin().await
+}
+
+/// The database's time, µs since 1970: the machines' own clocks differ.
+pub(super) async fn now(connection: &mut Connection) -> Result<i64, sqlx::Error> {
+    sqlx::query_scalar("SELECT CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000000 AS BIGINT)")
+        .fetch_one(connection)
+        .await
+}
+
+/// Keeps two workers from choosing the same shard, until the end of the transaction.
+pub(super) async fn one_at_a_time(connection: &mut Connection) -> Result<(), sqlx::Error> {
+    sqlx::query("SELECT pg_advisory_xact_lock($1)").bind(CLAIM_LOCK).execute(connection).await?;
+    Ok(())
+}
+
+/// Forgets tasks that are done with.
+pub(super) const SWEEP: &str = "DELETE FROM apalis.jobs WHERE status IN ('Done', 'Killed', 'Failed')";
+
+/// Puts tasks into the queue, as part of the connection's transaction.
+pub(super) async fn push(connection: &mut Connection, queue: &str, tasks: Vec<Task<Vec<u8>>>) -> Result<(), StoreError> {
+    push_tasks(connection, queue, tasks).await.map_err(|error| StoreError::Queue(error.to_string()))
+}
+
+/// The queue's side of the database.
+pub(super) fn storage(pool: &Pool, config: QueueConfig) -> PostgresStorage<Value> {
+    PostgresStorage::new(pool).with_config(config)
+}

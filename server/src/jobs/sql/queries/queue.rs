@@ -1,0 +1,69 @@
+//! The queue in the same database, by apalis.
+
+use super::{SqlStore, begin, push, storage};
+use crate::jobs::StoreError;
+use crate::jobs::queue::{Handler, Queue};
+use apalis::prelude::{BoxDynError, Data, ParallelizeExt, PollWith, Strategy, TaskBuilder, WorkerBuilder};
+use async_trait::async_trait;
+use serde_json::Value;
+use std::convert::Infallible;
+use std::time::Duration;
+use tokio::sync::watch;
+
+/// How often the queue is looked at even if nobody rang: other machines ring only their own bell.
+const POLL_INTERVAL: Duration = Duration::from_millis(500);
+
+/// Time between a worker's signs of life, and how many may be missing: then its tasks are handed out again.
+const HEARTBEAT: Duration = Duration::from_secs(10);
+const MISSED_HEARTBEATS: usize = 3;
+
+#[async_trait]
+impl Queue for SqlStore {
+    async fn push(&self, queue: &str, payload: Value, delay: Duration) -> Result<(), StoreError> {
+        let task = TaskBuilder::new(payload.to_string().into_bytes()).max_attempts(1).run_after(delay).build();
+        let mut transaction = begin(&self.write).await?;
+        push(&mut transaction, queue, vec![task]).await?;
+        transaction.commit().await?;
+        Ok(())
+    }
+
+    async fn run(
+        &self,
+        queue: &'static str,
+        worker: &str,
+        at_a_time: usize,
+        handler: Handler,
+        mut stop: watch::Receiver<bool>,
+    ) -> Result<(), StoreError> {
+        let config = super::QueueConfig::default()
+            .queue(queue)
+            .batch_size(at_a_time)
+            .heartbeat_interval(HEARTBEAT)
+            .missed_heartbeats(MISSED_HEARTBEATS);
+        let bell = futures_util::stream::unfold(self.pushed.subscribe(), |mut bell| async move {
+            bell.changed().await.ok().map(|()| ((), bell))
+        });
+        let strategy = Strategy::new().stream(Box::pin(bell)).interval(POLL_INTERVAL).build();
+        let worker = WorkerBuilder::new(worker)
+            .backend(PollWith::new(storage(&self.write, config), strategy))
+            .data(handler)
+            .parallelize(tokio::spawn)
+            .build(perform);
+        let stopped = async move {
+            // Whoever could tell it to stop is gone: that tells it too.
+            let _ = stop.wait_for(|stop| *stop).await;
+            Ok::<(), Infallible>(())
+        };
+        worker.run_until(stopped).await.map_err(|error| StoreError::Queue(error.to_string()))
+    }
+
+    async fn sweep(&self) -> Result<u64, StoreError> {
+        let swept = sqlx::query(super::SWEEP).execute(&self.write).await?;
+        Ok(swept.rows_affected())
+    }
+}
+
+async fn perform(payload: Value, handler: Data<Handler>) -> Result<(), BoxDynError> {
+    handler(payload).await;
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! Accepting a job: idempotency, the user's limits, what is known already, the plan; all in one transaction.
+
+use super::change::{State, tell, wake};
+use super::rows::{JobRow, job_columns};
+use super::{Connection, Db, Pool, begin, now};
+use crate::config::Limits;
+use crate::jobs::plan::{Shard, plan};
+use crate::jobs::store::{EventKind, summary};
+use crate::jobs::{Job, JobState, NewJob, StoreError, Submitted};
+use adaptarm_core::scenario::Report;
+use sqlx::{FromRow, QueryBuilder, Row};
+use std::collections::BTreeMap;
+use uuid::Uuid;
+
+/// Rows written or hashes asked for in one statement; databases bound the number of parameters.
+const BATCH: usize = 500;
+
+/// Accepts a job.
+pub(super) async fn submit(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
+    match attempt(pool, job, limits).await {
+        // Another request with the same key came first, a moment ago: now its job can be seen.
+        Err(StoreError::Database(error)) if is_doubled(&error) => attempt(pool, job, limits).await,
+        done => done,
+    }
+}
+
+fn is_doubled(error: &sqlx::Error) -> bool {
+    error.as_database_error().is_some_and(sqlx::error::DatabaseError::is_unique_violation)
+}
+
+async fn attempt(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
+    let mut transaction = begin(pool).await?;
+    let connection = &mut *transaction;
+    if let Some(job) = repeated(connection, job).await? {
+        return Ok(Submitted { job, repeated: true });
+    }
+    let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
+    check_quotas(connection, &job.owner, steps, limits).await?;
+    let known = known_reports(connection, job).await?;
+    let shards = plan(
+        job.scenarios.iter().map(|scenario| (!known.contains_key(scenario.hash.as_str())).then_some(scenario.cost_us)),
+    );
+    let id = Uuid::now_v7();
+    let at = now(connection).await?;
+    insert_job(connection, id, job, &known, at).await?;
+    insert_scenarios(connection, id, job, &known).await?;
+    insert_shards(connection, id, job, &shards).await?;
+    tell(connection, id, State::new(JobState::Queued), at).await?;
+    for (n, scenario) in job.scenarios.iter().enumerate() {
+        if let Some(report) = known.get(scenario.hash.as_str()) {
+            super::change::record(connection, id, EventKind::Summary, &summary(n as i64, report)).await?;
+        }
+    }
+    if shards.is_empty() {
+        tell(connection, id, State::new(JobState::Succeeded), at).await?;
+    } else {
+        wake(connection, shards.len()).await?;
+    }
+    let row: JobRow = sqlx::query_as(concat!("SELECT ", job_columns!(), " FROM job WHERE id = $1"))
+        .bind(id.to_string())
+        .fetch_one(&mut *connection)
+        .await?;
+    transaction.commit().await?;
+    Ok(Submitted { job: Job::try_from(row)?, repeated: false })
+}
+
+/// The job that the same request made before.
+async fn repeated(connection: &mut Connection, job: &NewJob) -> Result<Option<Job>, StoreError> {
+    let Some((key, hash)) = &job.idempotency else { return Ok(None) };
+    let row = sqlx::query(concat!(
+        "SELECT request_hash, ",
+        job_columns!(),
+        " FROM job WHERE owner = $1 AND idempotency_key = $2"
+    ))
+    .bind(&job.owner)
+    .bind(key)
+    .fetch_optional(connection)
+    .await?;
+    let Some(row) = row else { return Ok(None) };
+    if row.try_get::<Option<String>, _>("request_hash")?.as_ref() != Some(hash) {
+        return Err(StoreError::KeyReused { key: key.clone() });
+    }
+    Job::try_from(JobRow::from_row(&row)?).map(Some)
+}
+
+async fn check_quotas(connection: &mut Connection, owner: &str, steps: u64, limits: &Limits) -> Result<(), StoreError> {
+    let (jobs, waiting): (i64, i64) = sqlx::query_as(
+        "SELECT COUNT(*), CAST(COALESCE(SUM(steps_total - steps_done), 0) AS BIGINT) FROM job \
+         WHERE owner = $1 AND state IN ('queued', 'running')",
+    )
+    .bind(owner)
+    .fetch_one(&mut *connection)
+    .await?;
+    let bytes: i64 = sqlx::query_scalar("SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM job WHERE owner = $1")
+        .bind(owner)
+        .fetch_one(connection)
+        .await?;
+    let quotas = [
+        ("unfinished jobs", jobs, 1, limits.unfinished_jobs_per_user),
+        ("integration steps waiting or under way", waiting, steps, limits.queued_steps_per_user),
+        ("bytes of stored results", bytes, 0, limits.stored_bytes_per_user),
+    ];
+    for (what, found, more, most) in quotas {
+        // An adaptive method may have taken more steps than were planned.
+        let found = found.max(0) as u64;
+        if found.saturating_add(more) > most {
+            return Err(StoreError::Quota { what, found, more, most });
+        }
+    }
+    Ok(())
+}
+
+/// Reports that are stored already, by scenario hash.
+async fn known_reports<'a>(
+    connection: &mut Connection,
+    job: &'a NewJob,
+) -> Result<BTreeMap<&'a str, Report>, StoreError> {
+    let mut known = BTreeMap::new();
+    for scenarios in job.scenarios.chunks(BATCH) {
+        let mut query: QueryBuilder<Db> = QueryBuilder::new("SELECT hash, report FROM result WHERE core_version = ");
+        query.push_bind(adaptarm_core::VERSION).push(" AND hash IN (");
+        let mut list = query.separated(", ");
+        for scenario in scenarios {
+            list.push_bind(&scenario.hash);
+        }
+        query.push(")");
+        for row in query.build().fetch_all(&mut *connection).await? {
+            let (hash, report): (String, String) = (row.try_get("hash")?, row.try_get("report")?);
+            let report: Report = serde_json::from_str(&report)
+                .map_err(|error| StoreError::Damaged(format!("a report of {hash} that cannot be read: {error}")))?;
+            if let Some(scenario) = scenarios.iter().find(|scenario| scenario.hash == hash) {
+                known.insert(scenario.hash.as_str(), report);
+            }
+        }
+    }
+    Ok(known)
+}
+
+async fn insert_job(
+    connection: &mut Connection,
+    id: Uuid,
+    job: &NewJob,
+    known: &BTreeMap<&str, Report>,
+    at: i64,
+) -> Result<(), StoreError> {
+    let done = |scenario: &&crate::jobs::NewScenario| known.contains_key(scenario.hash.as_str());
+    let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
+    let (count_done, steps_done) =
+        job.scenarios.iter().filter(done).fold((0, 0), |(count, sum), scenario| (count + 1, sum + scenario.steps));
+    // A webhook is two strings.
+    let webhook = job.webhook.as_ref().map(|webhook| serde_json::to_string(webhook).unwrap_or_default());
+    let (key, hash) = job.idempotency.clone().unzip();
+    sqlx::query(
+        "INSERT INTO job (id, owner, kind, label, priority, state, cached, created_at, scenarios, scenarios_done, \
+         steps_total, steps_done, bytes, webhook, idempotency_key, request_hash) \
+         VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, $8, $9, $10, $11, 0, $12, $13, $14)",
+    )
+    .bind(id.to_string())
+    .bind(&job.owner)
+    .bind(job.kind.id())
+    .bind(&job.label)
+    .bind(job.priority)
+    .bind(i64::from(count_done == job.scenarios.len()))
+    .bind(at)
+    .bind(job.scenarios.len() as i64)
+    .bind(count_done as i64)
+    .bind(steps as i64)
+    .bind(steps_done as i64)
+    .bind(webhook)
+    .bind(key)
+    .bind(hash)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+async fn insert_scenarios(
+    connection: &mut Connection,
+    id: Uuid,
+    job: &NewJob,
+    known: &BTreeMap<&str, Report>,
+) -> Result<(), StoreError> {
+    let numbered: Vec<_> = job.scenarios.iter().enumerate().collect();
+    for scenarios in numbered.chunks(BATCH) {
+        let mut query: QueryBuilder<Db> =
+            QueryBuilder::new("INSERT INTO job_scenario (job_id, n, hash, document, core_version) ");
+        query.push_values(scenarios, |mut row, (n, scenario)| {
+            let version = known.contains_key(scenario.hash.as_str()).then_some(adaptarm_core::VERSION);
+            row.push_bind(id.to_string())
+                .push_bind(*n as i64)
+                .push_bind(&scenario.hash)
+                .push_bind(&scenario.document)
+                .push_bind(version);
+        });
+        query.build().execute(&mut *connection).await?;
+    }
+    Ok(())
+}
+
+async fn insert_shards(
+    connection: &mut Connection,
+    id: Uuid,
+    job: &NewJob,
+    shards: &[Shard],
+) -> Result<(), StoreError> {
+    let numbered: Vec<_> = shards.iter().enumerate().collect();
+    for shards in numbered.chunks(BATCH) {
+        let mut query: QueryBuilder<Db> =
+            QueryBuilder::new("INSERT INTO shard (job_id, number, owner, priority, first, count, state) ");
+        query.push_values(shards, |mut row, (number, shard)| {
+            row.push_bind(id.to_string())
+                .push_bind(*number as i64)
+                .push_bind(&job.owner)
+                .push_bind(job.priority)
+                .push_bind(shard.first as i64)
+                .push_bind(shard.count as i64)
+                .push_bind("queued");
+        });
+        query.build().execute(&mut *connection).await?;
+    }
+    Ok(())
+}
