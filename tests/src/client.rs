@@ -1,7 +1,7 @@
 //! A client of the HTTP API that takes every status as an answer and waits for what it asked for.
 
 use crate::events::Events;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use ureq::http::{HeaderMap, Request};
@@ -121,11 +121,8 @@ impl Client {
     pub fn submit_surely(&self, job: &Value, key: &str, within: Duration) -> Result<String> {
         let headers = [("content-type", "application/json"), ("idempotency-key", key)];
         let body = job.to_string();
-        surely(within, || {
-            let answer = self.send("POST", "/api/v1/jobs", &headers, body.as_bytes())?;
-            Ok((answer.status < 500).then_some(answer))
-        })
-        .and_then(|answer| identifier(&answer))
+        let answer = surely(within, || Ok(answered(self.send("POST", "/api/v1/jobs", &headers, body.as_bytes()))))?;
+        identifier(&answer)
     }
 
     /// The job as the server describes it.
@@ -136,14 +133,11 @@ impl Client {
     /// The job once it has ended, which must be within this time. A server that does not answer is asked again.
     pub fn wait(&self, id: &str, within: Duration) -> Result<Value> {
         surely(within, || {
-            let answer = self.get(&format!("/api/v1/jobs/{id}"))?;
-            if answer.status >= 500 {
-                return Ok(None);
-            }
+            let Some(answer) = answered(self.get(&format!("/api/v1/jobs/{id}"))) else { return Ok(None) };
             let job = answer.expect(200)?;
             Ok(is_final(&job).then_some(job))
         })
-        .with_context(|| format!("job {id} has not ended"))
+        .with_context(|| format!("waiting for the end of job {id}"))
     }
 
     /// The result of a job that has ended.
@@ -185,22 +179,21 @@ pub fn is_final(job: &Value) -> bool {
     matches!(job["state"].as_str(), Some("succeeded" | "failed" | "canceled"))
 }
 
-/// Tries until there is something, at most for this time; what fails is tried again.
+/// Tries until there is something, at most for this time; an error ends it at once.
 pub fn surely<T>(within: Duration, attempt: impl Fn() -> Result<Option<T>>) -> Result<T> {
     let deadline = Instant::now() + within;
     loop {
-        let outcome = attempt();
-        if let Ok(Some(found)) = outcome {
+        if let Some(found) = attempt()? {
             return Ok(found);
         }
-        if Instant::now() > deadline {
-            match outcome {
-                Err(error) => return Err(error.context(format!("still so after {within:?}"))),
-                Ok(_) => bail!("nothing within {within:?}"),
-            }
-        }
+        ensure!(Instant::now() < deadline, "nothing within {within:?}");
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// An answer of a server that is well; none while it is dead, starting, or without its database.
+fn answered(outcome: Result<Answer>) -> Option<Answer> {
+    outcome.ok().filter(|answer| answer.status < 500)
 }
 
 fn identifier(answer: &Answer) -> Result<String> {

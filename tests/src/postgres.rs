@@ -69,7 +69,8 @@ impl Cluster {
         postgres.arg("-D").arg(self.data()).args(["-p", &self.port.to_string(), "-c", "listen_addresses=127.0.0.1"]);
         postgres.arg("-k").arg(self.folder.path()).stdin(Stdio::null()).stdout(log.try_clone()?).stderr(log);
         self.postmaster = Some(postgres.spawn()?);
-        surely(PATIENCE, || self.query("postgres", "SELECT 1").map(Some)).map(|_| ())
+        surely(PATIENCE, || Ok(self.query("postgres", "SELECT 1").ok())).context("PostgreSQL does not answer")?;
+        Ok(())
     }
 
     fn stop(&mut self, signal: &str) -> Result<()> {

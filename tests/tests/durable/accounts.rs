@@ -5,12 +5,12 @@ use adaptarm_tests::client::{Client, is_final};
 use adaptarm_tests::workload::Work;
 use anyhow::{Context, Result, ensure};
 use std::collections::BTreeSet;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::{self, sleep};
 use std::time::Duration;
 
 /// Longest outage that a client sits out.
-const PATIENCE: Duration = Duration::from_mins(5);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 /// Work that several clients hand in, each waiting for one job before the next.
 pub struct Batch<'a> {
@@ -18,32 +18,48 @@ pub struct Batch<'a> {
     work: &'a [Work],
     next: AtomicUsize,
     done: AtomicUsize,
+    broken: AtomicBool,
 }
 
 impl<'a> Batch<'a> {
     /// Hands nothing in yet.
     pub fn new(url: &'a str, work: &'a [Work]) -> Self {
-        Self { url, work, next: AtomicUsize::new(0), done: AtomicUsize::new(0) }
+        Self { url, work, next: AtomicUsize::new(0), done: AtomicUsize::new(0), broken: AtomicBool::new(false) }
     }
 
-    /// Share of the work that has ended.
-    pub fn share_done(&self) -> f64 {
-        self.done.load(Ordering::Relaxed) as f64 / self.work.len() as f64
+    /// Returns once this share of the work has ended.
+    pub fn reach(&self, share: f64) -> Result<()> {
+        while (self.done.load(Ordering::Relaxed) as f64) < share * self.work.len() as f64 {
+            ensure!(!self.broken.load(Ordering::Relaxed), "a client gave up");
+            sleep(Duration::from_millis(5));
+        }
+        Ok(())
     }
 
     /// Hands all of it in through this many clients while `disturb` does what it does, and checks the books at the end.
     pub fn survive(&self, clients: usize, disturb: impl FnOnce(&Self) -> Result<()>) -> Result<()> {
         let mut identifiers = thread::scope(|scope| {
-            let clients: Vec<_> = (0..clients).map(|_| scope.spawn(|| self.hand_in())).collect();
-            let disturbed = disturb(self);
+            let clients: Vec<_> = (0..clients).map(|_| scope.spawn(|| self.note(self.hand_in()))).collect();
+            let disturbed = self.note(disturb(self));
             let handed_in: Result<Vec<_>> =
                 clients.into_iter().map(|client| client.join().expect("a client does not panic")).collect();
-            disturbed.and(handed_in)
+            let handed_in = handed_in?;
+            disturbed?;
+            anyhow::Ok(handed_in)
         })?
         .concat();
         identifiers.sort();
         let identifiers: Vec<_> = identifiers.into_iter().map(|(_, id)| id).collect();
         self.check(&identifiers)
+    }
+
+    /// Makes everyone stop soon if this went wrong.
+    fn note<T>(&self, outcome: Result<T>) -> Result<T> {
+        if outcome.is_err() {
+            self.broken.store(true, Ordering::Relaxed);
+            self.next.store(self.work.len(), Ordering::Relaxed);
+        }
+        outcome
     }
 
     /// What one client does: its jobs by their number in the batch.

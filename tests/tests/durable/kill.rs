@@ -19,9 +19,7 @@ pub fn servers() -> Result<()> {
         for kill in 0..kills {
             // Spread over the batch, and anywhere within a job.
             let moment = (f64::from(kill) + random.random_range(0.2..0.8)) / f64::from(kills);
-            while batch.share_done() < moment {
-                sleep(Duration::from_millis(5));
-            }
+            batch.reach(moment)?;
             sleep(Duration::from_millis(random.random_range(0..100)));
             server.restart()?;
         }

@@ -52,19 +52,15 @@ pub fn crashes() -> Result<()> {
     let url = site.server.url.clone();
     Batch::new(&url, &work).survive(6, |batch| {
         for round in 0..rounds {
-            let reach = |moment: f64| {
-                while batch.share_done() < (f64::from(round) + moment) / f64::from(rounds) {
-                    sleep(Duration::from_millis(5));
-                }
-            };
-            reach(0.1);
+            let reach = |moment: f64| batch.reach((f64::from(round) + moment) / f64::from(rounds));
+            reach(0.1)?;
             first.restart()?;
-            reach(0.3);
+            reach(0.3)?;
             // Others take its work; when it wakes, what it still holds must count for nothing.
             second.freeze()?;
             sleep(LEASE * 2);
             second.thaw()?;
-            reach(0.7);
+            reach(0.7)?;
             site.cluster.crash()?;
             sleep(Duration::from_millis(300));
             site.cluster.resume()?;
