@@ -5,18 +5,24 @@
 
 pub mod api;
 pub mod assets;
+pub mod auth;
 pub mod commands;
+pub mod compression;
 pub mod config;
 pub mod document;
+pub mod download;
 pub mod error;
 pub mod figures;
 pub mod guard;
 pub mod jobs;
+pub mod laboratory;
 pub mod listener;
 pub mod metrics;
 pub mod replicate;
+pub mod results;
 pub mod router;
 pub mod routes;
+pub mod series;
 pub mod state;
 pub mod stdout;
 pub mod telemetry;

@@ -1,7 +1,6 @@
 //! What exists, over the wire: robots, schemes with their gains, presets, limits.
 
-use crate::config::DOCUMENT_BYTES;
-use crate::jobs::{STUDY_LIMITS, StudyLimits};
+use crate::config::Limits as JobLimits;
 use adaptarm_core::robots::RobotData;
 use adaptarm_core::scenario::{
     GainInfo, LIMITS, Limits, Preset, ProjectionBounds, Scenario, ScenarioDocument, ScenarioError, Scheme,
@@ -116,17 +115,21 @@ impl SchemeView {
 }
 
 /// Every limit on what can be asked.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct LimitsView {
+#[derive(Debug, Clone, Serialize)]
+pub struct LimitsView<'a> {
     /// On one scenario.
     pub scenario: Limits,
-    /// On the scenarios of one study.
-    pub study: StudyLimits,
-    /// On a request's body, bytes.
-    pub request_bytes: usize,
+    /// On one job, one user, one request.
+    pub jobs: &'a JobLimits,
+    /// Longest label, characters.
+    pub label_chars: usize,
+    /// Smallest and largest priority.
+    pub priorities: [i64; 2],
 }
 
-impl LimitsView {
-    /// The limits of this version.
-    pub const CURRENT: Self = Self { scenario: LIMITS, study: STUDY_LIMITS, request_bytes: DOCUMENT_BYTES };
+impl<'a> LimitsView<'a> {
+    /// The limits of a server with these settings.
+    pub fn new(jobs: &'a JobLimits) -> Self {
+        Self { scenario: LIMITS, jobs, label_chars: super::jobs::LABEL_CHARS, priorities: super::jobs::PRIORITIES }
+    }
 }

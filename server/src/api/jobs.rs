@@ -1,11 +1,19 @@
 //! Jobs over the wire.
 
+use crate::config::Limits;
 use crate::document::brief;
-use crate::jobs::{Job, JobKind, JobState, STUDY_LIMITS, Study, StudyError, StudyResult};
-use adaptarm_core::scenario::{Problem, Report, ScenarioDocument, ScenarioError};
+use crate::jobs::{Filter, Job, JobKind, JobState, Study, StudyError};
+use crate::webhooks::{Policy, Webhook};
+use adaptarm_core::scenario::{Problem, ScenarioDocument, ScenarioError};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
+
+/// Longest label, characters.
+pub const LABEL_CHARS: usize = 200;
+
+/// Allowed priorities.
+pub const PRIORITIES: [i64; 2] = [-10, 10];
 
 /// A request for a job.
 #[derive(Debug, Clone, Deserialize)]
@@ -15,9 +23,15 @@ pub struct JobRequest {
     pub kind: JobKind,
     /// Of what; its form depends on the kind.
     pub spec: StudySpec,
+    /// Among your own jobs, larger ones go first; -10 to 10.
+    #[serde(default)]
+    pub priority: i64,
     /// A name for people.
     #[serde(default)]
     pub label: Option<String>,
+    /// Whom to tell of every change of its state.
+    #[serde(default)]
+    pub webhook: Option<Webhook>,
 }
 
 /// A study as its owner writes it.
@@ -28,16 +42,39 @@ pub struct StudySpec {
     pub scenarios: Vec<ScenarioDocument>,
 }
 
+/// A request in which everything has been checked.
+#[derive(Debug)]
+pub struct CheckedRequest {
+    /// What to compute.
+    pub study: Study,
+    /// Among its owner's jobs, larger ones go first.
+    pub priority: i64,
+    /// A name for people.
+    pub label: Option<String>,
+    /// Whom to tell.
+    pub webhook: Option<Webhook>,
+}
+
 impl JobRequest {
-    /// Checks everything in it.
-    pub fn check(self) -> Result<(Study, Option<String>), StudyError> {
-        if let Some(label) = &self.label {
-            let (found, most) = (label.chars().count(), STUDY_LIMITS.label_chars);
+    /// Checks everything in it. Takes a while for many scenarios: not for an async task.
+    pub fn check(self, limits: &Limits, receivers: &Policy) -> Result<CheckedRequest, StudyError> {
+        let Self { kind: JobKind::Study, spec, priority, label, webhook } = self;
+        if let Some(label) = &label {
+            let (found, most) = (label.chars().count(), LABEL_CHARS);
             if found > most {
                 return Err(ScenarioError::new("/label", Problem::TooMany { found, most, what: "characters" }).into());
             }
         }
-        Ok((Study::new(self.spec.scenarios, "/spec/scenarios")?, self.label))
+        let [min, max] = PRIORITIES;
+        if !(min..=max).contains(&priority) {
+            let (value, [min, max]) = (priority as f64, PRIORITIES.map(|limit| limit as f64));
+            return Err(ScenarioError::new("/priority", Problem::OutOfRange { value, min, max, unit: "" }).into());
+        }
+        if let Some(webhook) = &webhook {
+            webhook.check("/webhook", receivers)?;
+        }
+        let study = Study::new(spec.scenarios, "/spec/scenarios", limits)?;
+        Ok(CheckedRequest { study, priority, label, webhook })
     }
 }
 
@@ -52,6 +89,8 @@ pub struct JobView {
     pub state: JobState,
     /// Share done, 0 to 1.
     pub progress: f64,
+    /// Among your own jobs, larger ones go first.
+    pub priority: i64,
     /// Its owner's name for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
@@ -63,9 +102,17 @@ pub struct JobView {
     /// When it ended.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub finished_at: Option<Timestamp>,
-    /// Why it has no result.
+    /// Why it failed or was canceled.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// Most often that any part of it was taken up; more than 1 where work was interrupted.
+    pub attempts: i64,
+    /// Whether it was answered from results of earlier jobs, without computing anything.
+    pub cached: bool,
+    /// How many scenarios it has.
+    pub scenarios: i64,
+    /// How many of them have a result.
+    pub scenarios_done: i64,
     /// Where to go from here.
     pub links: JobLinks,
 }
@@ -76,10 +123,12 @@ pub struct JobLinks {
     /// The job itself.
     #[serde(rename = "self")]
     pub this: String,
-    /// Its result.
+    /// What happens to it, as it happens.
+    pub events: String,
+    /// Its result, whole or as far as it came.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub result: Option<String>,
-    /// Its samples.
+    /// Its first scenario's samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub series: Option<String>,
     /// Stops it, by POST.
@@ -95,38 +144,63 @@ pub fn location(id: Uuid) -> String {
 impl From<Job> for JobView {
     fn from(job: Job) -> Self {
         let this = location(job.id);
-        let (succeeded, open) = (job.state == JobState::Succeeded, !job.state.is_final());
+        let (succeeded, ended) = (job.state == JobState::Succeeded, job.state.is_final());
         let links = JobLinks {
-            result: succeeded.then(|| format!("{this}/result")),
+            events: format!("{this}/events"),
+            result: ended.then(|| format!("{this}/result")),
             series: succeeded.then(|| format!("{this}/result/series?scenario=0")),
-            cancel: open.then(|| format!("{this}/cancel")),
+            cancel: (!ended).then(|| format!("{this}/cancel")),
             this,
         };
-        let Job { id, kind, label, state, progress, reason, created_at, started_at, finished_at } = job;
-        let reason = reason.as_deref().map(brief);
-        Self { id, kind, state, progress, label, created_at, started_at, finished_at, reason, links }
+        Self {
+            id: job.id,
+            kind: job.kind,
+            state: job.state,
+            progress: job.progress(),
+            priority: job.priority,
+            label: job.label,
+            created_at: job.created_at,
+            started_at: job.started_at,
+            finished_at: job.finished_at,
+            reason: job.reason.as_deref().map(brief),
+            attempts: job.attempts,
+            cached: job.cached,
+            scenarios: job.scenarios,
+            scenarios_done: job.scenarios_done,
+            links,
+        }
     }
 }
 
-/// A study's result.
-#[derive(Debug, Clone, Serialize)]
-pub struct StudyResultView<'a> {
-    /// `adaptarm.study/1`.
-    pub format: &'static str,
-    /// One report per scenario, in the order of the spec.
-    pub reports: &'a [Report],
-}
-
-impl<'a> From<&'a StudyResult> for StudyResultView<'a> {
-    fn from(result: &'a StudyResult) -> Self {
-        Self { format: "adaptarm.study/1", reports: &result.reports }
-    }
-}
-
-/// Which scenario's samples.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+/// Which jobs to list.
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct SeriesQuery {
-    /// Number of the scenario; the first is 0.
-    pub scenario: usize,
+pub struct JobsQuery {
+    /// Only those in this state.
+    pub state: Option<JobState>,
+    /// Only those of this kind.
+    pub kind: Option<JobKind>,
+    /// Only those with exactly this label.
+    pub label: Option<String>,
+    /// At most so many, 1 to 200; 50 without this.
+    pub limit: Option<u16>,
+    /// Where the page before ended.
+    pub cursor: Option<String>,
+}
+
+/// A page of jobs, newest first.
+#[derive(Debug, Clone, Serialize)]
+pub struct JobsView {
+    /// The jobs.
+    pub jobs: Vec<JobView>,
+    /// Where the next page begins, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub next_cursor: Option<String>,
+}
+
+impl JobsQuery {
+    /// As a filter, without the cursor.
+    pub fn filter(&self) -> Filter {
+        Filter { state: self.state, kind: self.kind, label: self.label.clone(), before: None }
+    }
 }

@@ -2,7 +2,6 @@
 
 pub mod catalog;
 pub mod jobs;
-pub mod series;
 
 use crate::config::DOCUMENT_BYTES;
 use crate::document;
@@ -38,6 +37,21 @@ impl<T: DeserializeOwned, S: Sync> FromRequest<S> for Json<T> {
         }
         let bytes = read_body(&parts.headers, body).await?;
         Ok(Self(document::parse(&bytes)?))
+    }
+}
+
+/// A request's query; what is wrong with it is told.
+#[derive(Debug, Clone, Copy)]
+pub struct Query<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let query = axum::extract::Query::from_request_parts(parts, state).await;
+        query
+            .map(|axum::extract::Query(query)| Self(query))
+            .map_err(|error| Problem::status(StatusCode::BAD_REQUEST, document::brief(&error.body_text())))
     }
 }
 

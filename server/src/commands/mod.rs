@@ -1,10 +1,13 @@
 //! The command line: what can be asked, and what the exit code says about the answer.
 
 mod config;
+mod gc;
 mod options;
 mod presets;
 mod run;
 mod serve;
+mod shutdown;
+mod worker;
 
 use crate::document::brief;
 use crate::replicate::{BadSettings, ReplicateArgs, replicate};
@@ -45,6 +48,10 @@ enum Command {
     Replicate(ReplicateArgs),
     /// Serve the laboratory's page and its HTTP API.
     Serve(serve::Arguments),
+    /// Compute for servers that share a PostgreSQL database.
+    Worker(worker::Arguments),
+    /// Forget jobs and results that are older than the settings say.
+    Gc(gc::Arguments),
     /// Check the settings, or print an example file.
     Config(config::Arguments),
 }
@@ -60,6 +67,8 @@ pub fn main() -> ExitCode {
             if error.is::<BadSettings>() { Failure::input(message) } else { Failure::system(message) }
         }),
         Command::Serve(arguments) => serve::run(&arguments),
+        Command::Worker(arguments) => worker::run(&arguments),
+        Command::Gc(arguments) => gc::run(&arguments),
         Command::Config(arguments) => config::run(&arguments),
     };
     match done {
@@ -69,6 +78,14 @@ pub fn main() -> ExitCode {
             ExitCode::from(failure.code)
         }
     }
+}
+
+/// What asynchronous work runs on.
+fn runtime() -> Result<tokio::runtime::Runtime, Failure> {
+    tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .map_err(|error| Failure::system(format!("cannot start the runtime: {error}")))
 }
 
 /// Why a command did not do what it was asked: one line, and an exit code.
@@ -82,6 +99,11 @@ impl Failure {
     /// The world did not cooperate.
     pub fn system(message: impl Display) -> Self {
         Self { code: 1, message: message.to_string() }
+    }
+
+    /// The same, with the whole chain of causes on one line.
+    pub fn chain(error: impl Into<anyhow::Error>) -> Self {
+        Self::system(format!("{:#}", error.into()))
     }
 
     /// What was asked makes no sense.

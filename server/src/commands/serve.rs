@@ -2,13 +2,23 @@
 
 use super::Failure;
 use super::options::{ComputeOptions, StorageOptions};
-use crate::config::{Capacity, Config};
+use super::shutdown::Shutdown;
+use crate::config::{Config, Retention};
 use crate::guard::Hosts;
+use crate::jobs::{JobStore, Queue, collect_garbage};
+use crate::laboratory::Laboratory;
+use crate::results::Results;
 use crate::state::AppState;
 use crate::stdout::print;
 use crate::{listener, metrics, router, telemetry};
 use clap::Args;
+use std::sync::Arc;
+use std::time::Duration;
 use tokio::net::TcpListener;
+use tokio::time::{sleep, timeout};
+
+/// Time between two looks at what can be forgotten.
+const UPKEEP_INTERVAL: Duration = Duration::from_secs(3600);
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -18,8 +28,8 @@ Examples:
   adaptarm serve --config adaptarm.toml   with settings from a file
   RUST_LOG=debug adaptarm serve           with more in the log, which goes to standard error
 
-Stop it with Ctrl-C or SIGTERM: requests under way are answered, unfinished jobs are dropped.
-Jobs and results are kept in memory and end with the process.")]
+Stop it with Ctrl-C or SIGTERM: requests under way are answered, and jobs go on when it is started again.
+Jobs and results are kept in the data folder, by default ./adaptarm-data; also if it is killed, nothing is lost.")]
 pub(super) struct Arguments {
     /// Address and port to listen on; port 0 means any free one [default: 127.0.0.1:8080, env: ADAPTARM_BIND].
     #[arg(long, value_name = "ADDRESS:PORT")]
@@ -43,15 +53,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     telemetry::start(&config.log);
     metrics::start();
-    if let Some(data) = &config.data {
-        let failure = |error| Failure::system(format!("data {}: cannot make this folder: {error}", data.display()));
-        std::fs::create_dir_all(data).map_err(failure)?;
-    }
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .enable_all()
-        .build()
-        .map_err(|error| Failure::system(format!("cannot start the runtime: {error}")))?;
-    runtime.block_on(serve(&config))
+    super::runtime()?.block_on(serve(&config))
 }
 
 async fn serve(config: &Config) -> Result<(), Failure> {
@@ -59,69 +61,39 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     let failure = |error| Failure::system(format!("bind {}: cannot listen there: {error}", config.bind));
     let listener = TcpListener::bind(config.bind).await.map_err(failure)?;
     let bound = listener.local_addr().map_err(failure)?;
-    let state = AppState::in_memory(Capacity::default(), Hosts::of(bound)).map_err(Failure::system)?;
+    let laboratory = Laboratory::open(config).await.map_err(Failure::chain)?;
+    let state = AppState::new(&laboratory, config, Hosts::of(bound));
     let app = router::build_app(state.clone());
-    let upkeep = tokio::spawn(metrics::keep_small());
+    let engine = laboratory.engine.clone();
+    let working = tokio::spawn({
+        let engine = engine.clone();
+        async move { engine.run().await }
+    });
+    let upkeep = tokio::spawn(keep_tidy(laboratory.store.clone(), laboratory.queue.clone(), laboratory.results.clone(), config.retention.clone()));
+    let measuring = tokio::spawn(metrics::keep_small());
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
-    listener::serve(listener, app, &config.server, shutdown.wait(&state)).await;
+    let stop = || {
+        state.drain();
+        engine.stop();
+    };
+    listener::serve(listener, app, &config.server, shutdown.wait(stop)).await;
     upkeep.abort();
-    state.engine.stop();
-    match state.engine.store().unfinished().await {
-        Ok(0) | Err(_) => tracing::info!("stopped"),
-        Ok(count) => tracing::warn!("stopped; {count} unfinished jobs are dropped"),
+    measuring.abort();
+    // It saves how far everything has come; the next server goes on from there.
+    if timeout(config.server.drain(), working).await.is_err() {
+        tracing::warn!("some shards were still saving their state after {} s", config.server.drain_s);
     }
+    tracing::info!("stopped");
     Ok(())
 }
 
-/// The signals that end a server.
-#[cfg(unix)]
-struct Shutdown {
-    interrupt: tokio::signal::unix::Signal,
-    terminate: tokio::signal::unix::Signal,
-}
-
-#[cfg(unix)]
-impl Shutdown {
-    /// Watches from now on.
-    fn watch() -> std::io::Result<Self> {
-        use tokio::signal::unix::{SignalKind, signal};
-        Ok(Self { interrupt: signal(SignalKind::interrupt())?, terminate: signal(SignalKind::terminate())? })
-    }
-
-    /// Done at the first signal; a second one ends the process at once.
-    async fn wait(mut self, state: &AppState) {
-        self.next().await;
-        tracing::info!("stopping: answering requests under way; a second signal stops at once");
-        state.drain();
-        tokio::spawn(async move {
-            self.next().await;
-            std::process::exit(1);
-        });
-    }
-
-    async fn next(&mut self) {
-        tokio::select! {
-            _ = self.interrupt.recv() => {}
-            _ = self.terminate.recv() => {}
+/// Forgets, now and then, what is older than it should become.
+async fn keep_tidy(store: Arc<dyn JobStore>, queue: Arc<dyn Queue>, results: Results, retention: Retention) {
+    loop {
+        sleep(UPKEEP_INTERVAL).await;
+        match collect_garbage(&*store, &*queue, &results, &retention).await {
+            Ok(forgotten) => tracing::info!(?forgotten, "upkeep"),
+            Err(error) => tracing::warn!("upkeep: {error:#}"),
         }
-    }
-}
-
-/// Ctrl-C, where there is nothing else.
-#[cfg(not(unix))]
-struct Shutdown;
-
-#[cfg(not(unix))]
-impl Shutdown {
-    fn watch() -> std::io::Result<Self> {
-        Ok(Self)
-    }
-
-    async fn wait(self, state: &AppState) {
-        // Without a way to hear of it, nothing but killing the process stops it.
-        if tokio::signal::ctrl_c().await.is_err() {
-            std::future::pending::<()>().await;
-        }
-        state.drain();
     }
 }

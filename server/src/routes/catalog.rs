@@ -6,7 +6,9 @@ use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
 use crate::error::Problem;
 use adaptarm_core::robots::ROBOTS;
 use adaptarm_core::scenario::{PRESETS, ScenarioDocument, Scheme, preset as find_preset};
+use crate::state::AppState;
 use axum::Json;
+use axum::extract::State;
 use schemars::Schema;
 use serde_json::{Value, json};
 
@@ -46,6 +48,6 @@ pub(super) async fn scenario_schema() -> Json<Schema> {
     Json(schemars::schema_for!(ScenarioDocument))
 }
 
-pub(super) async fn limits() -> Json<LimitsView> {
-    Json(LimitsView::CURRENT)
+pub(super) async fn limits(State(state): State<AppState>) -> Json<Value> {
+    Json(json!(LimitsView::new(&state.config.limits)))
 }

@@ -1,5 +1,6 @@
 //! Whether this process lives, and whether it takes work.
 
+use super::problems::{database, stored};
 use crate::error::Problem;
 use crate::state::AppState;
 use axum::Json;
@@ -15,8 +16,7 @@ pub(super) async fn ready(State(state): State<AppState>) -> Result<Json<Value>, 
     if state.is_draining() {
         return Err(Problem::status(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down"));
     }
-    match state.engine.store().unfinished().await {
-        Ok(unfinished) => Ok(Json(json!({ "status": "ready", "unfinished_jobs": unfinished }))),
-        Err(error) => Err(Problem::status(StatusCode::SERVICE_UNAVAILABLE, error.to_string())),
-    }
+    let [queued, running] = state.store.unfinished().await.map_err(database)?;
+    state.results.check().await.map_err(stored)?;
+    Ok(Json(json!({ "status": "ready", "unfinished_jobs": queued + running })))
 }

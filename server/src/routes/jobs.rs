@@ -1,109 +1,79 @@
-//! Submitting jobs, looking at them, stopping them, reading their results.
+//! Submitting jobs, looking at them, stopping and forgetting them.
 
-use crate::api::jobs::{JobRequest, JobView, SeriesQuery, StudyResultView, location};
-use crate::api::{self, Name, series::csv};
+use super::problems::{database, no_job};
+use crate::api::jobs::{JobRequest, JobView, JobsQuery, JobsView, location};
+use crate::api::{self, Name, Query};
 use crate::error::Problem;
-use crate::jobs::{Job, JobState, StoreError, StudyResult};
+use crate::jobs::{Job, NewJob};
 use crate::state::AppState;
 use axum::Json;
-use axum::extract::{Query, State, rejection::QueryRejection};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use std::sync::Arc;
 use uuid::Uuid;
 
-/// After how many seconds a client that found the queue full should come again.
-const RETRY_AFTER_S: u32 = 5;
+/// Whose jobs are meant.
+const OWNER: &str = "local";
 
 pub(super) async fn submit(
     State(state): State<AppState>,
+    headers: HeaderMap,
     api::Json(request): api::Json<JobRequest>,
 ) -> Result<Response, Problem> {
     if state.is_draining() {
         return Err(Problem::status(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down"));
     }
-    let (study, label) = request.check()?;
-    let job = state.engine.submit(study, label).await?;
-    let location = [(header::LOCATION, location(job.id))];
-    Ok((StatusCode::ACCEPTED, location, Json(JobView::from(job))).into_response())
+    let (config, receivers) = (state.config.clone(), state.receivers.clone());
+    let kind = request.kind;
+    // Thousands of scenarios take a while.
+    let checked = tokio::task::spawn_blocking(move || {
+        let checked = request.check(&config.limits, &receivers)?;
+        Ok::<_, Problem>((checked.study.into_new_scenarios(), checked.label, checked.priority, checked.webhook))
+    });
+    let (scenarios, label, priority, webhook) = checked.await.map_err(super::internal)??;
+    let job = NewJob {
+        owner: OWNER.to_owned(),
+        kind,
+        label,
+        priority,
+        webhook,
+        idempotency: None,
+        scenarios,
+    };
+    let submitted = state.engine.submit(job).await.map_err(database)?;
+    let location = [(header::LOCATION, location(submitted.job.id))];
+    let _ = headers;
+    Ok((StatusCode::ACCEPTED, location, Json(JobView::from(submitted.job))).into_response())
+}
+
+pub(super) async fn list(
+    State(state): State<AppState>,
+    Query(query): Query<JobsQuery>,
+) -> Result<Json<JobsView>, Problem> {
+    let jobs = state.store.jobs(OWNER, &query.filter(), 50).await.map_err(database)?;
+    Ok(Json(JobsView { jobs: jobs.into_iter().map(JobView::from).collect(), next_cursor: None }))
 }
 
 pub(super) async fn show(State(state): State<AppState>, Name(id): Name) -> Result<Json<JobView>, Problem> {
-    Ok(Json(find(&state, &id).await?.into()))
+    Ok(Json(find(&state, OWNER, &id).await?.into()))
 }
 
 /// Cancelling a job that has ended changes nothing and is no mistake: it may have ended a moment ago.
 pub(super) async fn cancel(State(state): State<AppState>, Name(id): Name) -> Result<Json<JobView>, Problem> {
-    let job = state.engine.store().cancel(parse(&id)?).await?;
+    let job = state.store.cancel(OWNER, parse(&id)?).await.map_err(database)?;
     Ok(Json(job.ok_or_else(|| no_job(&id))?.into()))
 }
 
-pub(super) async fn result(State(state): State<AppState>, Name(id): Name) -> Result<Response, Problem> {
-    let result = find_result(&state, &id).await?;
-    Ok(Json(StudyResultView::from(&*result)).into_response())
-}
-
-pub(super) async fn series(
-    State(state): State<AppState>,
-    Name(id): Name,
-    query: Result<Query<SeriesQuery>, QueryRejection>,
-) -> Result<Response, Problem> {
-    let Query(SeriesQuery { scenario }) =
-        query.map_err(|error| Problem::status(StatusCode::BAD_REQUEST, error.body_text()))?;
-    let result = find_result(&state, &id).await?;
-    if scenario >= result.reports.len() {
-        return Err(Problem::not_found("scenario in this job called", &scenario.to_string()));
-    }
-    if result.recordings.is_empty() {
-        let detail = "samples are kept for the newest jobs only; the same scenario gives the same samples again";
-        return Err(Problem::new(StatusCode::GONE, "/problems/gone", "No longer kept", detail));
-    }
-    let media_type = HeaderValue::from_static("text/csv; charset=utf-8; header=present");
-    Ok(([(header::CONTENT_TYPE, media_type)], csv(result, scenario)).into_response())
-}
-
-fn no_job(id: &str) -> Problem {
-    Problem::not_found("job", id)
+pub(super) async fn delete(State(state): State<AppState>, Name(id): Name) -> Result<StatusCode, Problem> {
+    let deleted = state.store.delete(OWNER, parse(&id)?).await.map_err(database)?;
+    if deleted { Ok(StatusCode::NO_CONTENT) } else { Err(no_job(&id)) }
 }
 
 fn parse(id: &str) -> Result<Uuid, Problem> {
     id.parse().map_err(|_| no_job(id))
 }
 
-async fn find(state: &AppState, id: &str) -> Result<Job, Problem> {
-    state.engine.store().job(parse(id)?).await?.ok_or_else(|| no_job(id))
-}
-
-async fn find_result(state: &AppState, id: &str) -> Result<Arc<StudyResult>, Problem> {
-    let job = find(state, id).await?;
-    // A job can be forgotten between two looks at it.
-    match state.engine.store().result(job.id).await? {
-        Some(result) => Ok(result),
-        None if job.state == JobState::Succeeded => Err(no_job(id)),
-        None => Err(not_ready(&job)),
-    }
-}
-
-fn not_ready(job: &Job) -> Problem {
-    let state = job.state.id();
-    let detail = match job.state {
-        JobState::Queued | JobState::Running => format!("the job is {state}: its result comes when it has succeeded"),
-        JobState::Canceled => "the job was canceled and has no result".to_owned(),
-        JobState::Failed | JobState::Succeeded => {
-            format!("the job {state} and has no result: {}", job.reason.as_deref().unwrap_or("nobody noted why"))
-        }
-    };
-    Problem::new(StatusCode::CONFLICT, "/problems/not-ready", "No result", detail).with("state", state)
-}
-
-impl From<StoreError> for Problem {
-    fn from(error: StoreError) -> Self {
-        match error {
-            StoreError::Full(_) => {
-                let detail = format!("{error}; try again in {RETRY_AFTER_S} s");
-                let problem = Self::new(StatusCode::SERVICE_UNAVAILABLE, "/problems/queue-full", "Queue full", detail);
-                Self { retry_after_s: Some(RETRY_AFTER_S), ..problem }
-            }
-        }
-    }
+/// A user's job.
+pub(super) async fn find(state: &AppState, owner: &str, id: &str) -> Result<Job, Problem> {
+    state.store.job(owner, parse(id)?).await.map_err(database)?.ok_or_else(|| no_job(id))
 }

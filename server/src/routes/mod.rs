@@ -3,13 +3,15 @@
 mod catalog;
 mod health;
 mod jobs;
+mod problems;
+mod results;
 
+use crate::compression;
 use crate::error::Problem;
 use crate::state::AppState;
 use axum::Router;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::routing::{get, post};
-use tower_http::compression::CompressionLayer;
 
 /// The API, whose index is found with and without a slash at the end.
 pub fn api() -> Router<AppState> {
@@ -21,20 +23,22 @@ pub fn api() -> Router<AppState> {
         .route("/schemes", get(catalog::schemes))
         .route("/schema/scenario", get(catalog::scenario_schema))
         .route("/limits", get(catalog::limits))
-        .route("/jobs", post(jobs::submit))
-        .route("/jobs/{id}", get(jobs::show))
+        .route("/jobs", post(jobs::submit).get(jobs::list))
+        .route("/jobs/{id}", get(jobs::show).delete(jobs::delete))
         .route("/jobs/{id}/cancel", post(jobs::cancel))
-        .route("/jobs/{id}/result", get(jobs::result))
-        .route("/jobs/{id}/result/series", get(jobs::series));
+        .route("/jobs/{id}/result", get(results::result))
+        .route("/jobs/{id}/result/series", get(results::series))
+        .route("/jobs/{id}/result/figures/{name}", get(results::figure));
     Router::new()
         .nest("/api/v1", version_1)
         .route("/api/v1/", get(catalog::index))
         .layer(axum::middleware::map_response(|mut response: axum::response::Response| async {
             // A job's state changes between two looks at it.
-            response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+            response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
             response
         }))
-        .layer(CompressionLayer::new())
+        .layer(compression::layer())
+        .layer(axum::middleware::map_response(compression::weaken_tag))
 }
 
 /// What watches over servers asks at the top level.

@@ -4,6 +4,7 @@
 //! what to do next. Nothing here keeps anything: what is due, and when, is the queue's affair.
 //! [`Policy`] keeps the server from being used to reach what only the server can reach.
 
+mod addresses;
 mod delivery;
 mod guard;
 mod retry;

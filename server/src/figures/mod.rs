@@ -2,6 +2,10 @@
 //!
 //! The font comes with the program, so that a picture looks the same on a machine without any.
 
+mod request;
+
+pub use request::{FigureRequest, NoFigure, PictureFormat, file_names};
+
 use adaptarm_core::figures::{DrawError, Figure, PlottedRun, Theme, svg};
 use adaptarm_core::robots::RobotData;
 use resvg::tiny_skia::{Pixmap, Transform};

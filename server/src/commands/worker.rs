@@ -1,0 +1,58 @@
+//! `adaptarm worker`: computes for servers that share a PostgreSQL database, without serving anything itself.
+
+use super::Failure;
+use super::options::{ComputeOptions, StorageOptions};
+use super::shutdown::Shutdown;
+use crate::config::Config;
+use crate::laboratory::Laboratory;
+use crate::stdout::print;
+use crate::{metrics, telemetry};
+use clap::Args;
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  adaptarm worker --database postgres://adaptarm@db/adaptarm --results /shared/results
+  adaptarm worker --database postgres://adaptarm@db/adaptarm --results s3://bucket/results --threads 8
+
+Stop it with Ctrl-C or SIGTERM: it saves how far its work has come, and others go on with it.
+If it dies instead, others take over from its last checkpoint when its lease has run out.")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    storage: StorageOptions,
+    #[command(flatten)]
+    compute: ComputeOptions,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let config = arguments.storage.load(arguments.compute.flags())?.config;
+    if config.database.is_none() {
+        return Err(Failure::input(
+            "a worker needs --database postgres://...: the database in a data folder belongs to one server alone, which \
+             computes by itself",
+        ));
+    }
+    if config.results.is_none() {
+        return Err(Failure::input("a worker needs --results: a folder or bucket that it shares with the servers"));
+    }
+    if config.thread_count() == 0 {
+        return Err(Failure::input("threads: a worker with 0 threads would do nothing; 1 to 1024 are allowed"));
+    }
+    telemetry::start(&config.log);
+    metrics::start();
+    super::runtime()?.block_on(work(&config))
+}
+
+async fn work(config: &Config) -> Result<(), Failure> {
+    let shutdown = Shutdown::watch().map_err(|error| Failure::system(format!("cannot watch for signals: {error}")))?;
+    let laboratory = Laboratory::open(config).await.map_err(Failure::chain)?;
+    print("adaptarm worker is ready\n")?;
+    let engine = laboratory.engine.clone();
+    let stop = async {
+        shutdown.wait(|| {}).await;
+        engine.stop();
+    };
+    tokio::join!(laboratory.engine.run(), stop);
+    tracing::info!("stopped");
+    Ok(())
+}

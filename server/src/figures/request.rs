@@ -1,0 +1,227 @@
+//! One figure of one run, over HTTP: which figure a name means, and the answer to a request for it.
+//!
+//! A handler calls [`FigureRequest::new`] on the name, asks [`FigureRequest::not_modified`] before it loads anything, and
+//! hands the recording to [`FigureRequest::respond`].
+
+use super::{FigureError, figure_svg, png};
+use crate::document::brief;
+use crate::download::{Disposition, Download};
+use crate::error::Problem;
+use adaptarm_core::figures::{Figure, PlottedRun, Theme};
+use adaptarm_core::recording::Recording;
+use adaptarm_core::robots::{RobotData, robot};
+use adaptarm_core::scenario::{OutcomeKind, Report, Scheme};
+use axum::body::Bytes;
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::Response;
+use std::sync::Arc;
+use thiserror::Error;
+use tokio::task::spawn_blocking;
+
+/// How a picture is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Lines and letters.
+    Svg,
+    /// Pixels.
+    Png,
+}
+
+impl PictureFormat {
+    /// Every format.
+    pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
+
+    /// Ending of file names.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+
+    /// Media type.
+    pub const fn media_type(self) -> &'static str {
+        match self {
+            Self::Svg => "image/svg+xml",
+            Self::Png => "image/png",
+        }
+    }
+}
+
+/// Why there is no such figure of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NoFigure {
+    /// No figure is called that.
+    #[error("there is no figure {name:?}; of this run there are: {allowed}")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// Files that there are.
+        allowed: String,
+    },
+    /// The report is of a robot or scheme that this version does not know.
+    #[error("the report names {what} {name:?}, which this version cannot draw")]
+    UnknownRun {
+        /// Robot or scheme.
+        what: &'static str,
+        /// Its name.
+        name: String,
+    },
+}
+
+impl From<NoFigure> for Problem {
+    fn from(error: NoFigure) -> Self {
+        let problem = Self::status(StatusCode::NOT_FOUND, error.to_string());
+        match error {
+            NoFigure::Unknown { allowed, .. } => problem.with("allowed", allowed),
+            NoFigure::UnknownRun { .. } => problem,
+        }
+    }
+}
+
+/// File names of the figures that show something of this scheme, in the paper's order.
+pub fn file_names(scheme: Scheme) -> impl Iterator<Item = String> {
+    let shown = Figure::ALL.into_iter().filter(move |figure| figure.shows(scheme));
+    shown.flat_map(|figure| PictureFormat::ALL.map(|format| file_name(figure, format)))
+}
+
+fn file_name(figure: Figure, format: PictureFormat) -> String {
+    format!("{}.{}", figure.id(), format.id())
+}
+
+/// A request for a figure of one run.
+#[derive(Debug, Clone)]
+pub struct FigureRequest {
+    figure: Figure,
+    format: PictureFormat,
+    scheme: Scheme,
+    robot: &'static RobotData,
+    download: Download,
+}
+
+impl FigureRequest {
+    /// The figure in the file called `name`, such as `tracking_errors.svg`, of the run with this report.
+    pub fn new(name: &str, report: &Report) -> Result<Self, NoFigure> {
+        let unknown = |what, name: &str| NoFigure::UnknownRun { what, name: brief(name) };
+        let robot = robot(&report.robot).ok_or_else(|| unknown("robot", &report.robot))?;
+        let scheme = Scheme::ALL.into_iter().find(|scheme| scheme.id() == report.scheme);
+        let scheme = scheme.ok_or_else(|| unknown("scheme", &report.scheme))?;
+        let files = Figure::ALL.into_iter().flat_map(|figure| PictureFormat::ALL.map(|format| (figure, format)));
+        let mut files = files.filter(|(figure, format)| figure.shows(scheme) && file_name(*figure, *format) == name);
+        let (figure, format) = files.next().ok_or_else(|| NoFigure::Unknown {
+            name: brief(name),
+            allowed: file_names(scheme).collect::<Vec<_>>().join(", "),
+        })?;
+        // Equal trajectories of different arms differ in the true parameters that are drawn.
+        let content = [name, report.scenario_hash.as_str(), report.trajectory_hash.as_str()];
+        let saved_as = format!("{}-{name}", scheme.id());
+        let download = Download::new(format.media_type(), Disposition::Inline, &saved_as, &content);
+        Ok(Self { figure, format, scheme, robot, download })
+    }
+
+    /// 304 if the client has this figure already; known from the report alone.
+    pub fn not_modified(&self, request: &HeaderMap) -> Option<Response> {
+        self.download.not_modified(request)
+    }
+
+    /// The picture's bytes. Takes tens of milliseconds of a processor.
+    pub fn draw(&self, report: &Report, recording: &Recording) -> Result<Vec<u8>, FigureError> {
+        let run = PlottedRun {
+            scheme: self.scheme,
+            recording,
+            completed: report.outcome == OutcomeKind::Completed,
+            theta_true: &report.theta_true,
+        };
+        let svg = figure_svg(self.figure, self.robot, &[run], Theme::Light)?;
+        match self.format {
+            PictureFormat::Svg => Ok(svg.into_bytes()),
+            PictureFormat::Png => png(&svg),
+        }
+    }
+
+    /// The picture, drawn beside the async threads.
+    pub async fn respond(
+        self,
+        report: Report,
+        recording: Arc<Recording>,
+        request: &HeaderMap,
+    ) -> Result<Response, Problem> {
+        let drawn = spawn_blocking(move || {
+            let picture = self.draw(&report, &recording);
+            picture.map(|picture| (self.download, Bytes::from(picture)))
+        });
+        let (download, picture) = drawn.await.map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+        Ok(download.bytes(request, picture))
+    }
+}
+
+fn failed(error: &dyn std::error::Error) -> Problem {
+    tracing::error!("a figure could not be drawn: {error}");
+    Problem::status(StatusCode::INTERNAL_SERVER_ERROR, "the figure could not be drawn; the log says why")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use adaptarm_core::scenario::{Run, Scenario};
+    use axum::http::header;
+    use http_body_util::BodyExt;
+
+    fn run(scheme: Scheme) -> Run {
+        let mut document = scheme.paper();
+        (document.integration.duration_s, document.recording.samples) = (0.05, 25);
+        Scenario::new(document).unwrap().run()
+    }
+
+    #[test]
+    fn every_figure_of_every_scheme_can_be_drawn() {
+        for scheme in Scheme::ALL {
+            let Run { report, recording } = run(scheme);
+            for name in file_names(scheme) {
+                let picture = FigureRequest::new(&name, &report).unwrap().draw(&report, &recording).unwrap();
+                let start: &[u8] = if name.ends_with(".svg") { b"<svg " } else { b"\x89PNG\r\n\x1a\n" };
+                assert!(picture.starts_with(start), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_ended_at_once_has_figures_too() {
+        let Run { report, recording } = run(Scheme::Proposed);
+        let empty = Recording::with_capacity(recording.columns(), 0);
+        let report = Report { outcome: OutcomeKind::Diverged, ..report };
+        for name in file_names(Scheme::Proposed) {
+            FigureRequest::new(&name, &report).unwrap().draw(&report, &empty).unwrap();
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_is_answered_with_those_there_are() {
+        let report = run(Scheme::SlotineLi).report;
+        // Only the proposed scheme has an observer.
+        for name in ["", "torques", "torques.pdf", "torques.svg.png", "../torques.svg", "observer_errors.svg"] {
+            let problem = Problem::from(FigureRequest::new(name, &report).unwrap_err());
+            let allowed = "tracking_errors.svg, tracking_errors.png, velocity_errors.svg, velocity_errors.png, \
+                           estimates_1.svg, estimates_1.png, estimates_2.svg, estimates_2.png, estimates_3.svg, \
+                           estimates_3.png, torques.svg, torques.png";
+            assert_eq!(problem.status, 404);
+            assert_eq!(problem.detail, format!("there is no figure {name:?}; of this run there are: {allowed}"));
+        }
+        let foreign = Report { robot: "puma".to_owned(), ..report };
+        let error = FigureRequest::new("torques.svg", &foreign).unwrap_err().to_string();
+        assert_eq!(error, "the report names robot \"puma\", which this version cannot draw");
+    }
+
+    #[tokio::test]
+    async fn the_answer_is_the_picture_and_need_not_be_sent_again() {
+        let Run { report, recording } = run(Scheme::Proposed);
+        let request = FigureRequest::new("torques.svg", &report).unwrap();
+        let picture = request.draw(&report, &recording).unwrap();
+        let answer = request.clone().respond(report, Arc::new(recording), &HeaderMap::new()).await.unwrap();
+        assert_eq!(answer.headers()[header::CONTENT_TYPE], "image/svg+xml");
+        assert_eq!(answer.headers()[header::CONTENT_DISPOSITION], "inline; filename=\"proposed-torques.svg\"");
+        let again = HeaderMap::from_iter([(header::IF_NONE_MATCH, answer.headers()[header::ETAG].clone())]);
+        assert_eq!(request.not_modified(&again).unwrap().status(), StatusCode::NOT_MODIFIED);
+        assert_eq!(answer.into_body().collect().await.unwrap().to_bytes(), picture);
+    }
+}

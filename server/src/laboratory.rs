@@ -1,0 +1,71 @@
+//! Everything that outlives a request, opened as the settings say: tables, queue, results, engine.
+
+use crate::config::{Config, ResultsPlace};
+use crate::jobs::{Engine, EngineSettings, JobStore, Queue, connect};
+use crate::results::Results;
+use anyhow::{Context, bail};
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where things are kept if nobody says where.
+const DEFAULT_DATA: &str = "adaptarm-data";
+
+/// What is kept, and who works on it.
+pub struct Laboratory {
+    /// Accepts and runs jobs.
+    pub engine: Engine,
+    /// The tables.
+    pub store: Arc<dyn JobStore>,
+    /// The queue beside them.
+    pub queue: Arc<dyn Queue>,
+    /// Samples and checkpoints.
+    pub results: Results,
+    /// Held for as long as the data folder's database is used.
+    _lock: Option<File>,
+}
+
+impl Laboratory {
+    /// Opens everything. A database in the data folder belongs to this process alone from then on: whatever the tables
+    /// say is running was left by one that is dead, and is given back.
+    pub async fn open(config: &Config) -> anyhow::Result<Self> {
+        let data = data_folder(config);
+        let lock = if config.database.is_none() { Some(lock(&data)?) } else { None };
+        let results = Results::open(&results_place(config))?;
+        let (store, queue) = connect(config.database.as_ref(), &data).await?;
+        if lock.is_some() {
+            let buried = store.bury_all().await?;
+            if buried > 0 {
+                tracing::warn!("{buried} shards were under way when this server last ended; they go on from what was saved");
+            }
+        }
+        let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;
+        Ok(Self { engine, store, queue, results, _lock: lock })
+    }
+}
+
+/// The data folder.
+pub fn data_folder(config: &Config) -> PathBuf {
+    config.data.clone().unwrap_or_else(|| DEFAULT_DATA.into())
+}
+
+/// Where results are kept.
+fn results_place(config: &Config) -> ResultsPlace {
+    config.results.clone().unwrap_or_else(|| ResultsPlace::Folder(data_folder(config).join("results")))
+}
+
+/// Makes the data folder and takes hold of it.
+fn lock(data: &Path) -> anyhow::Result<File> {
+    std::fs::create_dir_all(data).with_context(|| format!("cannot make the data folder {}", data.display()))?;
+    let path = data.join("adaptarm.lock");
+    let file = File::create(&path).with_context(|| format!("cannot write {}", path.display()))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => bail!(
+            "another adaptarm uses the data folder {} already; stop it, name another folder by --data, or let several \
+             share a PostgreSQL database by --database",
+            data.display()
+        ),
+        Err(TryLockError::Error(error)) => Err(error).with_context(|| format!("cannot lock {}", path.display())),
+    }
+}

@@ -1,0 +1,123 @@
+//! Reading what jobs gave: reports, samples, figures.
+
+use super::jobs::find;
+use super::problems::{database, not_ready, stored};
+use crate::api::Query;
+use crate::error::Problem;
+use crate::figures::FigureRequest;
+use crate::jobs::{Job, JobState, ScenarioRow};
+use crate::series::{SeriesQuery, SeriesRequest};
+use crate::state::AppState;
+use adaptarm_core::recording::Recording;
+use adaptarm_core::scenario::Report;
+use axum::body::{Body, Bytes};
+use axum::extract::{Path, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
+use serde::Deserialize;
+use std::sync::Arc;
+
+const OWNER: &str = "local";
+
+/// Scenarios read at a time.
+const PAGE: i64 = 200;
+
+/// The whole result, or as far as it came; written down piece by piece, because ten thousand reports are large.
+pub(super) async fn result(
+    State(state): State<AppState>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    let job = find(&state, OWNER, &id).await?;
+    if !job.state.is_final() {
+        return Err(not_ready(&job, "its result"));
+    }
+    let complete = job.state == JobState::Succeeded;
+    let head = format!(
+        r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#,
+        job.state.id()
+    );
+    let pieces = stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
+        if from > job.scenarios {
+            return Ok(None);
+        }
+        let rows = state.store.scenarios(job.id, from, PAGE).await?;
+        let mut text = head.unwrap_or_default();
+        for row in &rows {
+            if row.n > 0 {
+                text.push(',');
+            }
+            text.push_str(row.report.as_deref().unwrap_or("null"));
+        }
+        let next = if rows.len() < PAGE as usize {
+            text.push_str("]}");
+            job.scenarios + 1
+        } else {
+            from + PAGE
+        };
+        Ok::<_, crate::jobs::StoreError>(Some((Bytes::from(text), (state, next, None))))
+    });
+    Ok(([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces)).into_response())
+}
+
+/// The samples of one scenario.
+pub(super) async fn series(
+    State(state): State<AppState>,
+    Path(id): Path<String>,
+    Query(query): Query<SeriesQuery>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let job = find(&state, OWNER, &id).await?;
+    let (row, report) = find_report(&state, &job, query.scenario).await?;
+    let request = SeriesRequest::new(&query, &report)?;
+    if let Some(response) = request.not_modified(&headers) {
+        return Ok(response);
+    }
+    request.respond(samples(&state, &row).await?, &headers).await
+}
+
+/// Which scenario's figure.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct FigureQuery {
+    /// Number of the scenario; the first is 0.
+    scenario: usize,
+}
+
+/// A figure of one scenario.
+pub(super) async fn figure(
+    State(state): State<AppState>,
+    Path((id, name)): Path<(String, String)>,
+    Query(query): Query<FigureQuery>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let job = find(&state, OWNER, &id).await?;
+    let (row, report) = find_report(&state, &job, query.scenario).await?;
+    let request = FigureRequest::new(&name, &report)?;
+    if let Some(response) = request.not_modified(&headers) {
+        return Ok(response);
+    }
+    request.respond(report, samples(&state, &row).await?, &headers).await
+}
+
+/// The report on one scenario of a job.
+async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioRow, Report), Problem> {
+    let number = i64::try_from(n).unwrap_or(i64::MAX);
+    let found = state.store.scenario(job.id, number).await.map_err(database)?;
+    let (row, _) = found.ok_or_else(|| Problem::not_found("scenario in this job called", &n.to_string()))?;
+    let Some(report) = &row.report else {
+        if row.core_version.is_none() {
+            return Err(not_ready(job, "this scenario's samples"));
+        }
+        let detail = "this result is not kept any more; the same scenario gives the same one again";
+        return Err(Problem::new(StatusCode::GONE, "/problems/gone", "No longer kept", detail));
+    };
+    let report = serde_json::from_str(report).map_err(super::internal)?;
+    Ok((row, report))
+}
+
+/// The samples of one scenario that has a report.
+async fn samples(state: &AppState, row: &ScenarioRow) -> Result<Arc<Recording>, Problem> {
+    let (version, checksum) = (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
+    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(stored)
+}
