@@ -59,7 +59,7 @@ impl Download {
         // In the client's own words: it may hold compressed bytes, which have the weak tag.
         let tag = if known == "*" { self.tag.as_str() } else { known };
         insert(&mut response, header::ETAG, tag);
-        self.describe_caching(&mut response);
+        describe_caching(&mut response);
         Some(response)
     }
 
@@ -114,14 +114,14 @@ impl Download {
         insert(&mut response, header::CONTENT_DISPOSITION, &disposition);
         insert(&mut response, header::ACCEPT_RANGES, "bytes");
         insert(&mut response, header::ETAG, &self.tag);
-        self.describe_caching(&mut response);
+        describe_caching(&mut response);
         response
     }
+}
 
-    /// Results belong to their owner, and jobs can be deleted: a copy may be kept, but not used without asking.
-    fn describe_caching(&self, response: &mut Response) {
-        insert(response, header::CACHE_CONTROL, "private, no-cache");
-    }
+/// Results belong to their owner, and jobs can be deleted: a copy may be kept, but not used without asking.
+fn describe_caching(response: &mut Response) {
+    insert(response, header::CACHE_CONTROL, "private, no-cache");
 }
 
 impl Part {

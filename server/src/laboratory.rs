@@ -3,6 +3,7 @@
 use crate::config::{Config, ResultsPlace};
 use crate::jobs::{Engine, EngineSettings, JobStore, Queue, connect};
 use crate::results::Results;
+use crate::webhooks::Policy;
 use anyhow::{Context, bail};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -21,6 +22,8 @@ pub struct Laboratory {
     pub queue: Arc<dyn Queue>,
     /// Samples and checkpoints.
     pub results: Results,
+    /// Whom webhooks may reach.
+    pub receivers: Arc<Policy>,
     /// Held for as long as the data folder's database is used.
     _lock: Option<File>,
 }
@@ -40,7 +43,8 @@ impl Laboratory {
             }
         }
         let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;
-        Ok(Self { engine, store, queue, results, _lock: lock })
+        let receivers = Arc::new(receivers(config)?);
+        Ok(Self { receivers, engine, store, queue, results, _lock: lock })
     }
 }
 
@@ -52,6 +56,15 @@ pub fn data_folder(config: &Config) -> PathBuf {
 /// Where results are kept.
 fn results_place(config: &Config) -> ResultsPlace {
     config.results.clone().unwrap_or_else(|| ResultsPlace::Folder(data_folder(config).join("results")))
+}
+
+/// Whom webhooks may reach.
+fn receivers(config: &Config) -> anyhow::Result<Policy> {
+    if config.webhooks.allow_all {
+        return Ok(Policy::all());
+    }
+    let allowed = config.webhooks.allow.iter().map(ToString::to_string);
+    Policy::allowing(allowed).context("webhooks.allow")
 }
 
 /// Makes the data folder and takes hold of it.

@@ -1,5 +1,6 @@
 //! What exists, over the wire: robots, schemes with their gains, presets, limits.
 
+use super::jobs::{LABEL_CHARS, PRIORITIES};
 use crate::config::Limits as JobLimits;
 use adaptarm_core::robots::RobotData;
 use adaptarm_core::scenario::{
@@ -115,21 +116,67 @@ impl SchemeView {
 }
 
 /// Every limit on what can be asked.
-#[derive(Debug, Clone, Serialize)]
-pub struct LimitsView<'a> {
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct LimitsView {
     /// On one scenario.
     pub scenario: Limits,
-    /// On one job, one user, one request.
-    pub jobs: &'a JobLimits,
+    /// On one job.
+    pub job: JobLimitsView,
+    /// On all jobs of one user together.
+    pub user: UserLimitsView,
+    /// On a request's body, bytes.
+    pub request_bytes: usize,
+    /// On `Prefer: wait`, s.
+    pub wait_s: u64,
+}
+
+/// Limits on one job.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct JobLimitsView {
+    /// Most scenarios.
+    pub scenarios: usize,
+    /// Most integration steps of all scenarios together.
+    pub steps: u64,
+    /// Most samples of all scenarios together.
+    pub samples: u64,
+    /// Longest computing time, s.
+    pub compute_s: u64,
     /// Longest label, characters.
     pub label_chars: usize,
     /// Smallest and largest priority.
-    pub priorities: [i64; 2],
+    pub priority: [i64; 2],
 }
 
-impl<'a> LimitsView<'a> {
-    /// The limits of a server with these settings.
-    pub fn new(jobs: &'a JobLimits) -> Self {
-        Self { scenario: LIMITS, jobs, label_chars: super::jobs::LABEL_CHARS, priorities: super::jobs::PRIORITIES }
+/// Limits on all jobs of one user together.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct UserLimitsView {
+    /// Most jobs waiting or running.
+    pub unfinished_jobs: u64,
+    /// Most integration steps waiting or under way.
+    pub queued_steps: u64,
+    /// Most stored results, bytes.
+    pub stored_bytes: u64,
+}
+
+impl From<&JobLimits> for LimitsView {
+    fn from(limits: &JobLimits) -> Self {
+        Self {
+            scenario: LIMITS,
+            job: JobLimitsView {
+                scenarios: limits.scenarios_per_job,
+                steps: limits.steps_per_job,
+                samples: limits.samples_per_job,
+                compute_s: limits.compute_s_per_job,
+                label_chars: LABEL_CHARS,
+                priority: PRIORITIES,
+            },
+            user: UserLimitsView {
+                unfinished_jobs: limits.unfinished_jobs_per_user,
+                queued_steps: limits.queued_steps_per_user,
+                stored_bytes: limits.stored_bytes_per_user,
+            },
+            request_bytes: limits.request_bytes,
+            wait_s: limits.wait_s,
+        }
     }
 }

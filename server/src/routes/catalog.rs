@@ -48,6 +48,6 @@ pub(super) async fn scenario_schema() -> Json<Schema> {
     Json(schemars::schema_for!(ScenarioDocument))
 }
 
-pub(super) async fn limits(State(state): State<AppState>) -> Json<Value> {
-    Json(json!(LimitsView::new(&state.config.limits)))
+pub(super) async fn limits(State(state): State<AppState>) -> Json<LimitsView> {
+    Json(LimitsView::from(&state.config.limits))
 }

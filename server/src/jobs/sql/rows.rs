@@ -70,7 +70,6 @@ impl TryFrom<JobRow> for Pulse {
 
 #[derive(Debug, sqlx::FromRow)]
 pub(super) struct ShardRow {
-    pub(super) job_id: String,
     pub(super) number: i64,
     pub(super) owner: String,
     pub(super) first: i64,

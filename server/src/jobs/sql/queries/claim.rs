@@ -77,7 +77,7 @@ async fn claim_of(
     let shard: Option<ShardRow> = sqlx::query_as(
         "UPDATE shard SET state = 'running', attempt = attempt + 1, worker = $3, lease_until = $4 \
          WHERE job_id = $1 AND number = $2 AND state = 'queued' \
-         RETURNING job_id, number, owner, first, count, attempt, kills, steps_done",
+         RETURNING number, owner, first, count, attempt, kills, steps_done",
     )
     .bind(&job)
     .bind(number)

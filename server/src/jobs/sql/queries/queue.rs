@@ -1,12 +1,13 @@
 //! The queue in the same database, by apalis.
 
-use super::{SqlStore, begin, push, storage};
+use super::{Pool, QueueConfig, SqlStore, begin, push, storage};
 use crate::jobs::StoreError;
 use crate::jobs::queue::{Handler, Queue};
-use apalis::prelude::{BoxDynError, Data, ParallelizeExt, PollWith, Strategy, TaskBuilder, WorkerBuilder};
+use apalis::prelude::{BoxDynError, Data, ParallelizeExt, PollWith, Strategy, TaskBuilder, WorkerBuilder, WorkerError};
 use async_trait::async_trait;
+use futures_util::future::BoxFuture;
 use serde_json::Value;
-use std::convert::Infallible;
+use std::future::Future;
 use std::time::Duration;
 use tokio::sync::watch;
 
@@ -35,32 +36,46 @@ impl Queue for SqlStore {
         handler: Handler,
         mut stop: watch::Receiver<bool>,
     ) -> Result<(), StoreError> {
-        let config = super::QueueConfig::default()
-            .queue(queue)
-            .batch_size(at_a_time)
-            .heartbeat_interval(HEARTBEAT)
-            .missed_heartbeats(MISSED_HEARTBEATS);
-        let bell = futures_util::stream::unfold(self.pushed.subscribe(), |mut bell| async move {
-            bell.changed().await.ok().map(|()| ((), bell))
-        });
-        let strategy = Strategy::new().stream(Box::pin(bell)).interval(POLL_INTERVAL).build();
-        let worker = WorkerBuilder::new(worker)
-            .backend(PollWith::new(storage(&self.write, config), strategy))
-            .data(handler)
-            .parallelize(tokio::spawn)
-            .build(perform);
+        let (pool, bell, worker) = (self.write.clone(), self.pushed.subscribe(), worker.to_owned());
         let stopped = async move {
             // Whoever could tell it to stop is gone: that tells it too.
             let _ = stop.wait_for(|stop| *stop).await;
-            Ok::<(), Infallible>(())
+            Ok::<(), std::io::Error>(())
         };
-        worker.run_until(stopped).await.map_err(|error| StoreError::Queue(error.to_string()))
+        let running = hand_out(&pool, queue, &worker, at_a_time, handler, bell, stopped);
+        running.await.map_err(|error| StoreError::Queue(error.to_string()))
     }
 
     async fn sweep(&self) -> Result<u64, StoreError> {
         let swept = sqlx::query(super::SWEEP).execute(&self.write).await?;
         Ok(swept.rows_affected())
     }
+}
+
+/// Hands out tasks until stopped. A function of its own, because the compiler cannot prove within another future that
+/// this one may change threads.
+fn hand_out(
+    pool: &Pool,
+    queue: &str,
+    worker: &str,
+    at_a_time: usize,
+    handler: Handler,
+    bell: watch::Receiver<u64>,
+    stopped: impl Future<Output = Result<(), std::io::Error>> + Send + 'static,
+) -> BoxFuture<'static, Result<(), WorkerError>> {
+    let config = QueueConfig::default()
+        .queue(queue)
+        .batch_size(at_a_time)
+        .heartbeat_interval(HEARTBEAT)
+        .missed_heartbeats(MISSED_HEARTBEATS);
+    let bell = futures_util::stream::unfold(bell, |mut bell| async move { bell.changed().await.ok().map(|()| ((), bell)) });
+    let strategy = Strategy::new().stream(Box::pin(bell)).interval(POLL_INTERVAL);
+    let worker = WorkerBuilder::new(worker)
+        .backend(PollWith::new(storage(pool, config), strategy))
+        .data(handler)
+        .parallelize(tokio::spawn)
+        .build(perform);
+    Box::pin(worker.run_until(stopped))
 }
 
 async fn perform(payload: Value, handler: Data<Handler>) -> Result<(), BoxDynError> {
