@@ -140,6 +140,15 @@ impl Client {
         .with_context(|| format!("waiting for the end of job {id}"))
     }
 
+    /// Returns once every job has ended, which must be within this time.
+    pub fn wait_for_all(&self, within: Duration) -> Result<()> {
+        let done = || {
+            let unfinished = self.jobs("state=queued")?.len() + self.jobs("state=running")?.len();
+            Ok((unfinished == 0).then_some(()))
+        };
+        surely(within, done).context("waiting for the end of all jobs")
+    }
+
     /// The result of a job that has ended.
     pub fn result(&self, id: &str) -> Result<Value> {
         self.get(&format!("/api/v1/jobs/{id}/result"))?.expect(200)

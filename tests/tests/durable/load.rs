@@ -1,6 +1,6 @@
 //! Fifty clients at once: every job succeeds, requests are answered quickly, memory stays small.
 
-use adaptarm_tests::client::{Client, surely};
+use adaptarm_tests::client::Client;
 use adaptarm_tests::workload::{Work, Workload};
 use adaptarm_tests::{Launch, machine};
 use anyhow::{Result, ensure};
@@ -27,10 +27,7 @@ pub fn clients() -> Result<()> {
     let handed_in = started.elapsed();
 
     let client = Client::new(&server.url);
-    surely(Duration::from_mins(5), || {
-        let open = client.jobs("state=queued")?.len() + client.jobs("state=running")?.len();
-        Ok((open == 0).then_some(()))
-    })?;
+    client.wait_for_all(Duration::from_mins(5))?;
     let ended = started.elapsed();
     for (n, id, _) in &answered {
         work[*n].check(&client, &client.job(id)?)?;
