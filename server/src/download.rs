@@ -80,7 +80,7 @@ impl Download {
     /// 206 with a part of a file of this length, whose bytes `body` gives; 416 if there are no such bytes.
     pub fn partial(&self, part: Part, length: u64, body: impl FnOnce(Range<u64>) -> Body) -> Response {
         let Some(range) = part.within(length) else {
-            let detail = format!("the file has {length} bytes; the range that is asked for begins behind them");
+            let detail = format!("the file has {length} bytes, and none of them is in the range that is asked for");
             let mut response = Problem::status(StatusCode::RANGE_NOT_SATISFIABLE, detail).into_response();
             insert(&mut response, header::CONTENT_RANGE, &format!("bytes */{length}"));
             return response;

@@ -20,6 +20,8 @@
 //! | `/problems/wrong-host` | 421 | `Host` names another machine |
 //! | `/problems/cross-site` | 403 | another site's page sent this |
 //! | `/problems/http` | any | nothing but what the status says |
+//!
+//! What is wrong in a query and not in a document has the query's `parameter` in place of a `pointer`.
 
 use crate::document::DocumentError;
 use crate::jobs::StudyError;

@@ -39,11 +39,13 @@ impl Laboratory {
         if lock.is_some() {
             let buried = store.bury_all().await?;
             if buried > 0 {
-                tracing::warn!("{buried} shards were under way when this server last ended; they go on from what was saved");
+                tracing::warn!(
+                    "{buried} shards were under way when this server last ended; they go on from what was saved"
+                );
             }
         }
         let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;
-        let receivers = Arc::new(receivers(config)?);
+        let receivers = Arc::new(config.webhooks.policy().context("webhooks.allow")?);
         Ok(Self { receivers, engine, store, queue, results, _lock: lock })
     }
 }
@@ -56,15 +58,6 @@ pub fn data_folder(config: &Config) -> PathBuf {
 /// Where results are kept.
 fn results_place(config: &Config) -> ResultsPlace {
     config.results.clone().unwrap_or_else(|| ResultsPlace::Folder(data_folder(config).join("results")))
-}
-
-/// Whom webhooks may reach.
-fn receivers(config: &Config) -> anyhow::Result<Policy> {
-    if config.webhooks.allow_all {
-        return Ok(Policy::all());
-    }
-    let allowed = config.webhooks.allow.iter().map(ToString::to_string);
-    Policy::allowing(allowed).context("webhooks.allow")
 }
 
 /// Makes the data folder and takes hold of it.

@@ -18,7 +18,7 @@ use tokio::net::TcpListener;
 use tokio::time::{sleep, timeout};
 
 /// Time between two looks at what can be forgotten.
-const UPKEEP_INTERVAL: Duration = Duration::from_secs(3600);
+const UPKEEP_INTERVAL: Duration = Duration::from_hours(1);
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -69,7 +69,12 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         let engine = engine.clone();
         async move { engine.run().await }
     });
-    let upkeep = tokio::spawn(keep_tidy(laboratory.store.clone(), laboratory.queue.clone(), laboratory.results.clone(), config.retention.clone()));
+    let upkeep = tokio::spawn(keep_tidy(
+        laboratory.store.clone(),
+        laboratory.queue.clone(),
+        laboratory.results.clone(),
+        config.retention.clone(),
+    ));
     let measuring = tokio::spawn(metrics::keep_small());
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
     let stop = || {

@@ -5,6 +5,7 @@
 use super::error::ConfigError;
 use super::setting::{Form, Setting};
 use config::{Map, Source, Value, ValueKind};
+use std::ffi::OsString;
 use toml::de::{DeTable, DeValue};
 
 /// A value, before it is known whether its setting can have it.
@@ -87,7 +88,7 @@ impl Layer {
 
     /// From environment variables. `RUST_LOG` is one of them; an empty one counts as not set.
     pub(super) fn environment(
-        variables: &[(String, String)],
+        variables: &[(String, OsString)],
         settings: &[&'static Setting],
     ) -> Result<Self, ConfigError> {
         let mut layer = Self::default();
@@ -95,7 +96,9 @@ impl Layer {
         for setting in settings {
             let general = if setting.key() == "log.filter" { set("RUST_LOG") } else { None };
             if let Some((variable, value)) = set(&setting.variable()).or(general) {
-                layer.add(setting, written(setting, value), &format!("variable {variable}"))?;
+                let place = format!("variable {variable}");
+                let strange = || ConfigError::wrong_type(&place, setting, "something that is not UTF-8");
+                layer.add(setting, written(setting, value.to_str().ok_or_else(strange)?), &place)?;
             }
         }
         let sections = settings.iter().map(|setting| setting.section).filter(|section| !section.is_empty());
@@ -139,7 +142,9 @@ fn is_of_a_service(variable: &str) -> bool {
 }
 
 fn unknown(place: String, section: &str, name: &str, settings: &[&'static Setting]) -> ConfigError {
-    let key = if section.is_empty() { name.to_owned() } else { format!("{section}.{name}") };
+    // Quoted keys can hold anything, and the message is one line.
+    let name = name.escape_debug();
+    let key = if section.is_empty() { name.to_string() } else { format!("{section}.{name}") };
     let mut allowed: Vec<_> =
         settings.iter().filter(|setting| setting.section == section).map(|setting| setting.name).collect();
     if section.is_empty() {

@@ -1,11 +1,12 @@
 //! From layers to settings: the file below the environment below flags, and then what only shows when all are together.
 
+use super::Config;
 use super::error::ConfigError;
 use super::layers::Layer;
 use super::setting::Setting;
-use super::{Config, print};
 use crate::document::read_file;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// Where settings are to come from.
@@ -14,7 +15,7 @@ pub struct Sources {
     /// A TOML file.
     pub file: Option<PathBuf>,
     /// Environment variables, by name.
-    pub environment: Vec<(String, String)>,
+    pub environment: Vec<(String, OsString)>,
     /// Flags, by the key of their setting.
     pub flags: Vec<(&'static str, String)>,
 }
@@ -31,10 +32,9 @@ pub struct Loaded {
 impl Sources {
     /// A file and flags, with this process's environment.
     pub fn new(file: Option<PathBuf>, flags: Vec<(&'static str, String)>) -> Self {
-        // What is not Unicode is no setting: every name and value of ours is.
-        let environment = std::env::vars_os()
-            .filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)))
-            .collect();
+        // All our names are Unicode.
+        let environment =
+            std::env::vars_os().filter_map(|(name, value)| Some((name.into_string().ok()?, value))).collect();
         Self { file, environment, flags }
     }
 
@@ -121,10 +121,5 @@ impl Loaded {
         let place = [second.0, first.0].iter().find_map(|key| self.places.get(*key)).cloned().unwrap_or_default();
         let message = format!("{} = {} {relation} {} = {}", first.0, first.1, second.0, second.1);
         Err(ConfigError::Conflict { place, message })
-    }
-
-    /// As `adaptarm config check` prints it.
-    pub fn to_toml(&self) -> String {
-        print::effective(self)
     }
 }

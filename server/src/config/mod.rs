@@ -16,21 +16,22 @@ pub use error::ConfigError;
 pub use load::{Loaded, Sources};
 pub use print::{effective, example};
 pub use setting::{Form, Rule, Setting};
-pub use values::{AllowedHost, DatabaseUrl, LogFormat, ResultsPlace};
+pub use values::{DatabaseUrl, LogFormat, ResultsPlace};
 
+use crate::webhooks::{Policy, PolicyError, Timing};
 use setting::section;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
-use values::{check, check_address, check_filter, check_folder};
+use values::{check, check_address, check_filter, check_folder, check_receiver};
 
 section! {
     /// Settings of one server or worker.
     Config [""] {
         /// Address and port to listen on; port 0 means any free one.
         bind: SocketAddr = SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)), Rule::text(check_address);
-        /// Folder for the database (adaptarm.sqlite3) and for results, made if it does not exist.
+        /// Folder for the database (adaptarm.sqlite3) and for results, made if it does not exist; adaptarm-data if not set.
         data: Option<PathBuf> = None, Rule::text(check_folder).example(r#""/var/lib/adaptarm""#);
         /// PostgreSQL database in place of the file in the data folder; several machines need one.
         database: Option<DatabaseUrl> = None,
@@ -140,8 +141,8 @@ section! {
 section! {
     /// Messages to other servers when a job ends.
     Webhooks ["webhooks"] {
-        /// Receivers allowed although their addresses are not public: host names and networks such as 10.0.0.0/8.
-        allow: Vec<AllowedHost> = Vec::new(), Rule::list(check::<AllowedHost>);
+        /// Receivers allowed although their addresses are not public: host names, and networks such as 10.0.0.0/8.
+        allow: Vec<String> = Vec::new(), Rule::list(check_receiver);
         /// Allows every receiver, this machine and its private network included. For tests only.
         allow_all: bool = false, Rule::switch();
         /// Wait before the first repetition of a failed delivery; later ones wait longer.
@@ -194,9 +195,14 @@ impl Server {
 }
 
 impl Webhooks {
-    /// [`Self::first_retry_s`].
-    pub fn first_retry(&self) -> Duration {
-        Duration::from_secs_f64(self.first_retry_s)
+    /// Whom they may reach.
+    pub fn policy(&self) -> Result<Policy, PolicyError> {
+        if self.allow_all { Ok(Policy::all()) } else { Policy::allowing(&self.allow) }
+    }
+
+    /// How long they may take, and when they are repeated.
+    pub fn timing(&self) -> Timing {
+        Timing { first_pause: Duration::from_secs_f64(self.first_retry_s), ..Timing::default() }
     }
 }
 

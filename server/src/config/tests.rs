@@ -1,6 +1,7 @@
 //! What users write, and what they are told when it is wrong.
 
 use super::*;
+use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::io::Write;
 
@@ -8,7 +9,7 @@ use std::io::Write;
 fn load(file: &str, environment: &[(&str, &str)], flags: &[(&'static str, &str)]) -> Result<Loaded, String> {
     let mut sources = Sources {
         file: None,
-        environment: environment.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect(),
+        environment: environment.iter().map(|(name, value)| ((*name).to_owned(), (*value).into())).collect(),
         flags: flags.iter().map(|(key, value)| (*key, (*value).to_owned())).collect(),
     };
     let folder = tempfile();
@@ -94,7 +95,7 @@ fn mistakes_name_place_key_value_and_what_is_allowed() {
         ("log.filter = \"a=b=c\"", "adaptarm.toml:1: log.filter \"a=b=c\": not a filter such as"),
         (
             "[webhooks]\nallow = [\"10.0.0.0/33\"]",
-            "adaptarm.toml:2: webhooks.allow \"10.0.0.0/33\": /33 is outside the allowed range /0 to /32",
+            "adaptarm.toml:2: webhooks.allow \"10.0.0.0/33\": has a prefix that is not 0 to 32 (IPv4) or 0 to 128 (IPv6); allowed: an address, a",
         ),
         (
             "[webhooks]\nallow = [1]",
@@ -197,16 +198,47 @@ fn what_is_printed_as_in_force_reads_back_as_the_same() {
 }
 
 #[test]
-fn allowed_hosts_allow_what_they_say() {
-    let allows =
-        |rule: &str, address: &str| rule.parse::<AllowedHost>().unwrap().allows_address(address.parse().unwrap());
-    assert!(allows("10.0.0.0/8", "10.1.2.3") && !allows("10.0.0.0/8", "11.0.0.1"));
-    assert!(allows("10.0.0.1", "10.0.0.1") && !allows("10.0.0.1", "10.0.0.2"));
-    assert!(allows("10.0.0.0/8", "::ffff:10.1.2.3"), "the same address, written for IPv6");
-    assert!(allows("fd00::/8", "fd12::1") && !allows("fd00::/8", "fe80::1") && !allows("0.0.0.0/0", "::1"));
-    let name: AllowedHost = "Hooks.lab".parse().unwrap();
-    assert!(name.allows_name("hooks.LAB.") && !name.allows_name("x.hooks.lab"));
-    for bad in ["", "a b", "a..b", "https://a", "a/8", "10.0.0.0/x", "::1/129", "[::1]"] {
-        assert!(bad.parse::<AllowedHost>().is_err(), "{bad}");
+fn webhooks_follow_their_settings() {
+    let webhooks = load("[webhooks]\nallow = [\"10.0.0.0/8\"]\nfirst_retry_s = 0.5", &[], &[]).unwrap().config.webhooks;
+    assert_eq!(webhooks.timing().first_pause, Duration::from_millis(500));
+    let reaches =
+        |webhooks: &Webhooks, url: &str| webhooks.policy().unwrap().check_literal(&url.parse().unwrap()).is_ok();
+    assert!(reaches(&webhooks, "http://10.1.2.3/") && !reaches(&webhooks, "http://192.168.0.1/"));
+    assert!(reaches(&Webhooks { allow_all: true, ..webhooks }, "http://192.168.0.1/"));
+}
+
+#[test]
+fn text_that_is_not_unicode_is_refused_where_it_matters() {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStringExt;
+        let strange = std::ffi::OsString::from_vec(b"/data/\xff".to_vec());
+        let environment = vec![("OTHER".to_owned(), strange.clone()), ("ADAPTARM_DATA".to_owned(), strange)];
+        let told = Sources { environment, ..Sources::default() }.load().unwrap_err().to_string();
+        assert_eq!(told, "variable ADAPTARM_DATA: data: found something that is not UTF-8, expected a text");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn whatever_stands_in_a_file_is_read_or_refused_in_one_line(
+        text in prop_oneof![
+            // Any text; a line of our own with any value; the example with something cut out of it.
+            "\\PC{0,60}",
+            ("(bind|database|results|threads|limits|log\\.filter|queue\\.lease_s|webhooks\\.allow)", "\\PC{0,30}")
+                .prop_map(|(key, value)| format!("{key} = {value}")),
+            (any::<prop::sample::Index>(), 0..40_usize).prop_map(|(at, length)| {
+                let characters: Vec<_> = example().chars().collect();
+                let at = at.index(characters.len());
+                characters.iter().take(at).chain(characters.iter().skip(at + length)).collect()
+            }),
+            "\"[^\"]{1,10}\" = 1",
+        ]
+    ) {
+        if let Err(message) = load(&text, &[], &[]) {
+            prop_assert!(!message.is_empty() && !message.contains('\n'), "{text:?}: {message:?}");
+        }
     }
 }

@@ -1,11 +1,12 @@
-//! Settings that are texts with a meaning: addresses, where things are kept, and whom a webhook may reach.
+//! Settings that are texts with a meaning: addresses, and where things are kept.
 //!
 //! Each is read once, where its mistakes can still be told with their place; after that it is a type that cannot be wrong.
 
 use super::setting::Shown;
+use crate::webhooks::Policy;
 use serde::Deserialize;
 use std::fmt;
-use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
+use std::net::{SocketAddr, ToSocketAddrs};
 use std::path::PathBuf;
 use std::str::FromStr;
 use url::Url;
@@ -33,6 +34,13 @@ pub(super) fn check_filter(text: &str) -> Result<String, String> {
     parsed
         .map(|_| text.to_owned())
         .map_err(|error| format!("not a filter such as info or warn,adaptarm=debug ({error})"))
+}
+
+/// A receiver that webhooks may reach.
+pub(super) fn check_receiver(text: &str) -> Result<String, String> {
+    let allowed = "an address, a network such as 10.0.0.0/8, or a host name without port";
+    // Its whole message would repeat the text.
+    Policy::allowing([text]).map(|_| text.to_owned()).map_err(|error| format!("{}; allowed: {allowed}", error.why))
 }
 
 /// A check that keeps the text as the type writes it.
@@ -68,7 +76,7 @@ macro_rules! from_text {
         }
     )+ };
 }
-from_text!(DatabaseUrl ResultsPlace AllowedHost LogFormat);
+from_text!(DatabaseUrl ResultsPlace LogFormat);
 
 impl Shown for SocketAddr {
     fn shown(&self) -> Option<String> {
@@ -175,74 +183,6 @@ impl fmt::Display for ResultsPlace {
             Self::Folder(folder) => write!(f, "{}", folder.display()),
             Self::S3 { bucket, prefix } if prefix.is_empty() => write!(f, "s3://{bucket}"),
             Self::S3 { bucket, prefix } => write!(f, "s3://{bucket}/{prefix}"),
-        }
-    }
-}
-
-/// A receiver that webhooks may reach although its address is not public.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-pub enum AllowedHost {
-    /// A host by its name, in lower case.
-    Name(String),
-    /// All addresses of a network.
-    Network {
-        /// One of its addresses.
-        address: IpAddr,
-        /// How many leading bits they share.
-        bits: u8,
-    },
-}
-
-impl AllowedHost {
-    /// Whether this allows a host of this name.
-    pub fn allows_name(&self, host: &str) -> bool {
-        matches!(self, Self::Name(name) if name.eq_ignore_ascii_case(host.trim_end_matches('.')))
-    }
-
-    /// Whether this allows this address.
-    pub fn allows_address(&self, candidate: IpAddr) -> bool {
-        let Self::Network { address, bits } = self else { return false };
-        let bits = u32::from(*bits);
-        match (address, candidate.to_canonical()) {
-            (IpAddr::V4(network), IpAddr::V4(address)) => {
-                let different = network.to_bits() ^ address.to_bits();
-                different.leading_zeros() >= bits
-            }
-            (IpAddr::V6(network), IpAddr::V6(address)) => {
-                let different = network.to_bits() ^ address.to_bits();
-                different.leading_zeros() >= bits
-            }
-            _ => false,
-        }
-    }
-}
-
-impl FromStr for AllowedHost {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (host, bits) = text.split_once('/').map_or((text, None), |(host, bits)| (host, Some(bits)));
-        if let Ok(address) = host.parse::<IpAddr>() {
-            let most = if address.is_ipv4() { 32 } else { 128 };
-            let bits = bits.map_or(Ok(most), |bits| bits.parse().ok().filter(|bits| *bits <= most).ok_or(bits));
-            let bits = bits.map_err(|bits| format!("/{bits} is outside the allowed range /0 to /{most}"))?;
-            return Ok(Self::Network { address, bits });
-        }
-        let letter = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-';
-        let label = |label: &str| !label.is_empty() && label.len() <= 63 && label.bytes().all(letter);
-        if bits.is_some() || host.len() > 253 || !host.split('.').all(label) {
-            return Err("neither a host's name nor a network such as 10.0.0.0/8 or fd00::/8".to_owned());
-        }
-        Ok(Self::Name(host.to_ascii_lowercase()))
-    }
-}
-
-impl fmt::Display for AllowedHost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Name(name) => f.write_str(name),
-            Self::Network { address, bits } => write!(f, "{address}/{bits}"),
         }
     }
 }

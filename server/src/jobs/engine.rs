@@ -24,6 +24,13 @@ const LOOK_INTERVAL: Duration = Duration::from_secs(1);
 /// How long to wait before listening to the queue again after it failed.
 const LISTEN_AGAIN: Duration = Duration::from_secs(1);
 
+/// Tickets taken from the queue at a time.
+const TICKETS_AT_A_TIME: usize = 64;
+
+/// How much the computing threads give way, on the system's scale from 0 to 19.
+#[cfg(target_os = "linux")]
+const NICE: i32 = 10;
+
 /// A job with this label ends its process when it begins: tests prove by it that nothing else suffers.
 const ABORT_LABEL: &str = "ADAPTARM_TEST_ABORT_ON_LABEL";
 
@@ -103,6 +110,7 @@ impl Engine {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads.max(1))
             .thread_name(|n| format!("simulation-{n}"))
+            .start_handler(|_| give_way())
             .build()
             .context("cannot start the simulation threads")?;
         let shared = Shared {
@@ -182,6 +190,14 @@ impl Engine {
     }
 }
 
+/// Makes the calling thread one that runs when no other needs the processor: answers come before computing.
+fn give_way() {
+    #[cfg(target_os = "linux")]
+    if let Err(error) = rustix::process::setpriority_process(None, NICE) {
+        tracing::debug!("computing threads keep their priority: {error}");
+    }
+}
+
 /// Turns tickets into wake-ups, for as long as this process works.
 async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()>) {
     let handler: Handler = Arc::new(move |_| {
@@ -191,8 +207,7 @@ async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()
     });
     while !shared.is_stopping() {
         let stop = shared.stopping.subscribe();
-        let threads = shared.settings.threads;
-        if let Err(error) = shared.queue.run(TICKETS, &shared.worker, threads, handler.clone(), stop).await {
+        if let Err(error) = shared.queue.run(TICKETS, &shared.worker, TICKETS_AT_A_TIME, handler.clone(), stop).await {
             tracing::warn!("{error}; listening again");
         }
         let mut stop = shared.stopping.subscribe();

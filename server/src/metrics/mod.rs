@@ -11,6 +11,7 @@ pub use http::observe;
 pub use table::{Kind, METRICS, Metric};
 
 use crate::jobs::JobState;
+use crate::webhooks::Outcome;
 use ::metrics::{counter, gauge, histogram};
 use metrics_exporter_prometheus::{PrometheusBuilder, PrometheusHandle, PrometheusRecorder};
 use std::sync::OnceLock;
@@ -74,8 +75,8 @@ fn begin_at_zero() {
     for reason in FailureReason::ALL {
         counter!("adaptarm_job_failures_total", "reason" => reason.id()).increment(0);
     }
-    for outcome in DeliveryOutcome::ALL {
-        counter!("adaptarm_webhook_deliveries_total", "outcome" => outcome.id()).increment(0);
+    for outcome in DELIVERY_OUTCOMES {
+        counter!("adaptarm_webhook_deliveries_total", "outcome" => outcome).increment(0);
     }
 }
 
@@ -114,38 +115,34 @@ pub fn job_ended(kind: &'static str, outcome: JobState) {
     counter!("adaptarm_jobs_total", "kind" => kind, "outcome" => outcome.id()).increment(1);
 }
 
-/// Declares an enum whose variants are a label's values.
-macro_rules! label {
-    ($(#[doc = $about:literal])+ $name:ident { $( $(#[doc = $doc:literal])+ $variant:ident = $id:literal, )+ }) => {
-        $(#[doc = $about])+
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum $name { $( $(#[doc = $doc])+ $variant, )+ }
-
-        impl $name {
-            /// All there are.
-            pub const ALL: &[Self] = &[$( Self::$variant, )+];
-
-            /// The label's value.
-            pub fn id(self) -> &'static str {
-                match self { $( Self::$variant => $id, )+ }
-            }
-        }
-    };
+/// Why a job failed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FailureReason {
+    /// Its simulation panicked.
+    Panicked,
+    /// It used up its computing time.
+    OutOfTime,
+    /// Its workers died, as often as it may be tried.
+    OutOfAttempts,
+    /// Its result could not be stored or read.
+    Storage,
+    /// Its document is not understood by this version.
+    Document,
 }
 
-label! {
-    /// Why a job failed.
-    FailureReason {
-        /// Its simulation panicked.
-        Panicked = "panicked",
-        /// It used up its computing time.
-        OutOfTime = "out_of_time",
-        /// Its workers died, as often as it may be tried.
-        OutOfAttempts = "out_of_attempts",
-        /// Its result could not be stored or read.
-        Storage = "storage",
-        /// Its document is not understood by this version.
-        Document = "document",
+impl FailureReason {
+    /// All there are.
+    pub const ALL: [Self; 5] = [Self::Panicked, Self::OutOfTime, Self::OutOfAttempts, Self::Storage, Self::Document];
+
+    /// The label's value.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Panicked => "panicked",
+            Self::OutOfTime => "out_of_time",
+            Self::OutOfAttempts => "out_of_attempts",
+            Self::Storage => "storage",
+            Self::Document => "document",
+        }
     }
 }
 
@@ -154,24 +151,18 @@ pub fn job_failed(reason: FailureReason) {
     counter!("adaptarm_job_failures_total", "reason" => reason.id()).increment(1);
 }
 
-label! {
-    /// How an attempt to deliver a webhook ended.
-    DeliveryOutcome {
-        /// The receiver took it.
-        Delivered = "delivered",
-        /// It failed and will be tried again.
-        Retried = "retried",
-        /// It failed for the last time.
-        GivenUp = "given_up",
-        /// The receiver's address may not be reached.
-        Forbidden = "forbidden",
-    }
+/// An attempt to deliver a webhook ended like this.
+pub fn webhook_delivery(outcome: &Outcome) {
+    let outcome = match outcome {
+        Outcome::Delivered => DELIVERY_OUTCOMES[0],
+        Outcome::Retry { .. } => DELIVERY_OUTCOMES[1],
+        Outcome::GiveUp { .. } => DELIVERY_OUTCOMES[2],
+    };
+    counter!("adaptarm_webhook_deliveries_total", "outcome" => outcome).increment(1);
 }
 
-/// An attempt to deliver a webhook ended like this.
-pub fn webhook_delivery(outcome: DeliveryOutcome) {
-    counter!("adaptarm_webhook_deliveries_total", "outcome" => outcome.id()).increment(1);
-}
+/// Delivered, to be tried again, never to be tried again.
+const DELIVERY_OUTCOMES: [&str; 3] = ["delivered", "retry", "give_up"];
 
 /// So many bytes of results were stored.
 pub fn result_stored(bytes: u64) {
@@ -263,8 +254,9 @@ mod tests {
         job_failed(FailureReason::OutOfTime);
         assert_eq!(recorded.value(r#"adaptarm_job_failures_total{reason="out_of_time"}"#), Some(1.0));
         assert_eq!(recorded.value(r#"adaptarm_job_failures_total{reason="storage"}"#), Some(0.0));
-        webhook_delivery(DeliveryOutcome::Forbidden);
-        assert_eq!(recorded.value(r#"adaptarm_webhook_deliveries_total{outcome="forbidden"}"#), Some(1.0));
+        webhook_delivery(&Outcome::GiveUp { why: String::new() });
+        assert_eq!(recorded.value(r#"adaptarm_webhook_deliveries_total{outcome="give_up"}"#), Some(1.0));
+        assert_eq!(recorded.value(r#"adaptarm_webhook_deliveries_total{outcome="delivered"}"#), Some(0.0));
         result_stored(1234);
         assert_eq!(recorded.value("adaptarm_results_bytes_total"), Some(1234.0));
         simulated(12.0, 12_000);

@@ -68,3 +68,17 @@ pub(super) fn describe() {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_manual_lists_every_metric() {
+        let manual = include_str!("../../../docs/operations.md");
+        for Metric { name, kind, labels, help } in METRICS {
+            let row = format!("| `{name}` | {} | {} | {help} |\n", kind.id(), labels.join(", "));
+            assert!(manual.contains(&row), "docs/operations.md lacks this row:\n{row}");
+        }
+    }
+}

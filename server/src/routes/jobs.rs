@@ -31,15 +31,7 @@ pub(super) async fn submit(
         Ok::<_, Problem>((checked.study.into_new_scenarios(), checked.label, checked.priority, checked.webhook))
     });
     let (scenarios, label, priority, webhook) = checked.await.map_err(super::internal)??;
-    let job = NewJob {
-        owner: OWNER.to_owned(),
-        kind,
-        label,
-        priority,
-        webhook,
-        idempotency: None,
-        scenarios,
-    };
+    let job = NewJob { owner: OWNER.to_owned(), kind, label, priority, webhook, idempotency: None, scenarios };
     let submitted = state.engine.submit(job).await.map_err(database)?;
     let location = [(header::LOCATION, location(submitted.job.id))];
     let _ = headers;

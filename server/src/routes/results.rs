@@ -24,19 +24,14 @@ const OWNER: &str = "local";
 const PAGE: i64 = 200;
 
 /// The whole result, or as far as it came; written down piece by piece, because ten thousand reports are large.
-pub(super) async fn result(
-    State(state): State<AppState>,
-    Path(id): Path<String>,
-) -> Result<Response, Problem> {
+pub(super) async fn result(State(state): State<AppState>, Path(id): Path<String>) -> Result<Response, Problem> {
     let job = find(&state, OWNER, &id).await?;
     if !job.state.is_final() {
         return Err(not_ready(&job, "its result"));
     }
     let complete = job.state == JobState::Succeeded;
-    let head = format!(
-        r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#,
-        job.state.id()
-    );
+    let head =
+        format!(r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#, job.state.id());
     let pieces = stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
         if from > job.scenarios {
             return Ok(None);
@@ -118,6 +113,7 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
 
 /// The samples of one scenario that has a report.
 async fn samples(state: &AppState, row: &ScenarioRow) -> Result<Arc<Recording>, Problem> {
-    let (version, checksum) = (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
-    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(stored)
+    let (version, checksum) =
+        (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
+    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(|error| stored(&error))
 }

@@ -34,7 +34,8 @@ async fn a_study_gives_the_reports_that_the_core_gives() {
     }
     app.get(&format!("{job}/result/series?scenario=3")).await.problem(404, "/problems/http");
     app.get(&format!("{job}/result/series?scenario=x")).await.problem(400, "/problems/http");
-    app.get(&format!("{job}/result/series?columns=q")).await.problem(400, "/problems/http");
+    app.get(&format!("{job}/result/series?column=q")).await.problem(400, "/problems/http");
+    app.get(&format!("{job}/result/series?columns=q")).await.problem(422, "/problems/unknown");
 }
 
 /// Compression once asked for more after the last piece, which the pieces answered with a panic.

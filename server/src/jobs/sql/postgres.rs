@@ -2,8 +2,8 @@
 
 use crate::jobs::StoreError;
 use apalis_core::task::Task;
-use apalis_postgres::queries::push_tasks;
 use apalis_postgres::PostgresStorage;
+use apalis_postgres::queries::push_tasks;
 use serde_json::Value;
 use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
 use std::time::Duration;
@@ -69,7 +69,11 @@ pub(super) async fn one_at_a_time(connection: &mut Connection) -> Result<(), sql
 pub(super) const SWEEP: &str = "DELETE FROM apalis.jobs WHERE status IN ('Done', 'Killed', 'Failed')";
 
 /// Puts tasks into the queue, as part of the connection's transaction.
-pub(super) async fn push(connection: &mut Connection, queue: &str, tasks: Vec<Task<Vec<u8>>>) -> Result<(), StoreError> {
+pub(super) async fn push(
+    connection: &mut Connection,
+    queue: &str,
+    tasks: Vec<Task<Vec<u8>>>,
+) -> Result<(), StoreError> {
     push_tasks(connection, queue, tasks).await.map_err(|error| StoreError::Queue(error.to_string()))
 }
 

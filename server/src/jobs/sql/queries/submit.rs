@@ -1,6 +1,6 @@
 //! Accepting a job: idempotency, the user's limits, what is known already, the plan; all in one transaction.
 
-use super::change::{State, tell, wake};
+use super::change::{State, Teller, announce, record, tell, wake};
 use super::rows::{JobRow, job_columns};
 use super::{Connection, Db, Pool, begin, now};
 use crate::config::Limits;
@@ -42,20 +42,19 @@ async fn attempt(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted
     );
     let id = Uuid::now_v7();
     let at = now(connection).await?;
-    insert_job(connection, id, job, &known, at).await?;
+    let (accepted, teller) = insert_job(connection, id, job, &known, at).await?;
     insert_scenarios(connection, id, job, &known).await?;
     insert_shards(connection, id, job, &shards).await?;
-    tell(connection, id, State::new(JobState::Queued), at).await?;
-    for (n, scenario) in job.scenarios.iter().enumerate() {
-        if let Some(report) = known.get(scenario.hash.as_str()) {
-            super::change::record(connection, id, EventKind::Summary, &summary(n as i64, report)).await?;
-        }
+    announce(connection, id, teller, State::new(JobState::Queued), at).await?;
+    if !known.is_empty() {
+        insert_summaries(connection, id, job, &known).await?;
     }
-    if shards.is_empty() {
-        tell(connection, id, State::new(JobState::Succeeded), at).await?;
-    } else {
+    if !shards.is_empty() {
         wake(connection, shards.len()).await?;
+        transaction.commit().await?;
+        return Ok(Submitted { job: accepted, repeated: false });
     }
+    tell(connection, id, State::new(JobState::Succeeded), at).await?;
     let row: JobRow = sqlx::query_as(concat!("SELECT ", job_columns!(), " FROM job WHERE id = $1"))
         .bind(id.to_string())
         .fetch_one(&mut *connection)
@@ -84,17 +83,14 @@ async fn repeated(connection: &mut Connection, job: &NewJob) -> Result<Option<Jo
 }
 
 async fn check_quotas(connection: &mut Connection, owner: &str, steps: u64, limits: &Limits) -> Result<(), StoreError> {
-    let (jobs, waiting): (i64, i64) = sqlx::query_as(
-        "SELECT COUNT(*), CAST(COALESCE(SUM(steps_total - steps_done), 0) AS BIGINT) FROM job \
-         WHERE owner = $1 AND state IN ('queued', 'running')",
+    let (jobs, waiting, bytes): (i64, i64, i64) = sqlx::query_as(
+        "SELECT COUNT(*), CAST(COALESCE(SUM(steps_total - steps_done), 0) AS BIGINT), \
+         (SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM job WHERE owner = $1) \
+         FROM job WHERE owner = $1 AND state IN ('queued', 'running')",
     )
     .bind(owner)
-    .fetch_one(&mut *connection)
+    .fetch_one(connection)
     .await?;
-    let bytes: i64 = sqlx::query_scalar("SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM job WHERE owner = $1")
-        .bind(owner)
-        .fetch_one(connection)
-        .await?;
     let quotas = [
         ("unfinished jobs", jobs, 1, limits.unfinished_jobs_per_user),
         ("integration steps waiting or under way", waiting, steps, limits.queued_steps_per_user),
@@ -142,7 +138,7 @@ async fn insert_job(
     job: &NewJob,
     known: &BTreeMap<&str, Report>,
     at: i64,
-) -> Result<(), StoreError> {
+) -> Result<(Job, Teller), StoreError> {
     let done = |scenario: &&crate::jobs::NewScenario| known.contains_key(scenario.hash.as_str());
     let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
     let (count_done, steps_done) =
@@ -150,11 +146,13 @@ async fn insert_job(
     // A webhook is two strings.
     let webhook = job.webhook.as_ref().map(|webhook| serde_json::to_string(webhook).unwrap_or_default());
     let (key, hash) = job.idempotency.clone().unzip();
-    sqlx::query(
+    let row = sqlx::query(concat!(
         "INSERT INTO job (id, owner, kind, label, priority, state, cached, created_at, scenarios, scenarios_done, \
-         steps_total, steps_done, bytes, webhook, idempotency_key, request_hash) \
-         VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, $8, $9, $10, $11, 0, $12, $13, $14)",
-    )
+         steps_total, steps_done, bytes, webhook, idempotency_key, request_hash, event_seq) \
+         VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, $8, $9, $10, $11, 0, $12, $13, $14, 1) \
+         RETURNING event_seq, webhook, ",
+        job_columns!()
+    ))
     .bind(id.to_string())
     .bind(&job.owner)
     .bind(job.kind.id())
@@ -169,8 +167,30 @@ async fn insert_job(
     .bind(webhook)
     .bind(key)
     .bind(hash)
-    .execute(connection)
+    .fetch_one(connection)
     .await?;
+    Ok((Job::try_from(JobRow::from_row(&row)?)?, Teller::from_row(&row)?))
+}
+
+/// Tells of what was known already, behind the event that the job was accepted.
+async fn insert_summaries(
+    connection: &mut Connection,
+    id: Uuid,
+    job: &NewJob,
+    known: &BTreeMap<&str, Report>,
+) -> Result<(), StoreError> {
+    let mut seq = 1;
+    for (n, scenario) in job.scenarios.iter().enumerate() {
+        if let Some(report) = known.get(scenario.hash.as_str()) {
+            seq += 1;
+            record(connection, id, seq, EventKind::Summary, &summary(n as i64, report)).await?;
+        }
+    }
+    sqlx::query("UPDATE job SET event_seq = $2 WHERE id = $1")
+        .bind(id.to_string())
+        .bind(seq)
+        .execute(connection)
+        .await?;
     Ok(())
 }
 
