@@ -56,7 +56,8 @@ pub fn strangers() -> Result<()> {
     let path = format!("/api/v1/jobs/{id}");
 
     let forged = token(&server, "mallory", &[])?;
-    let forged = format!("{}x", &forged[..forged.len() - 1]);
+    let (start, last) = forged.split_at(forged.len() - 1);
+    let forged = format!("{start}{}", if last == "0" { "1" } else { "0" });
     for stranger in [&nobody, &nobody.with_token("adaptarm_no"), &nobody.with_token(&forged)] {
         for (method, rest) in QUESTIONS {
             let answer = stranger.send(method, &format!("{path}{rest}"), &[], &[])?;
@@ -96,12 +97,16 @@ pub fn limits() -> Result<()> {
     let nobody = Client::new(&server.url);
     let secret = token(&server, "ada", &[])?;
     let ada = nobody.with_token(&secret);
-    let reader = nobody.with_token(&token(&server, "ada", &["--scopes", "read"])?);
+    let reader = nobody.with_token(&token(&server, "ada", &["--scopes", "jobs:read"])?);
     let id = ada.submit(&small(1))?;
     reader.get(&format!("/api/v1/jobs/{id}"))?.expect_status(200)?;
     reader.post("/api/v1/jobs", &small(2))?.expect_status(403)?;
     reader.cancel(&id)?.expect_status(403)?;
     reader.delete(&format!("/api/v1/jobs/{id}"))?.expect_status(403)?;
+    reader.get("/metrics")?.expect_status(403)?;
+    let watcher = nobody.with_token(&token(&server, "watch", &["--scopes", "metrics:read"])?);
+    watcher.get("/metrics")?.expect_status(200)?;
+    watcher.get("/api/v1/jobs")?.expect_status(403)?;
 
     let public = secret.split('_').nth(1).context("a token without a public part")?;
     ensure!(tokens(&server, &["list"])?.contains(public), "the list shows which tokens there are");
