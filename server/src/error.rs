@@ -27,7 +27,7 @@ use crate::document::DocumentError;
 use crate::jobs::StudyError;
 use adaptarm_core::scenario::ScenarioError;
 use axum::http::StatusCode;
-use axum::http::header::{CONTENT_LENGTH, CONTENT_TYPE, HeaderValue, RETRY_AFTER};
+use axum::http::header::{CONTENT_LENGTH, CONTENT_TYPE, HeaderValue, RETRY_AFTER, WWW_AUTHENTICATE};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -56,13 +56,16 @@ pub struct Problem {
     /// After how many seconds it may be worth trying again.
     #[serde(skip)]
     pub retry_after_s: Option<u32>,
+    /// How to log in, where that is what is missing.
+    #[serde(skip)]
+    pub challenge: Option<String>,
 }
 
 impl Problem {
     /// A problem without further fields.
     pub fn new(status: StatusCode, kind: &'static str, title: &'static str, detail: impl Into<String>) -> Self {
         let (status, detail, fields) = (status.as_u16(), detail.into(), Map::new());
-        Self { kind, title, status, detail, instance: None, fields, retry_after_s: None }
+        Self { kind, title, status, detail, instance: None, fields, retry_after_s: None, challenge: None }
     }
 
     /// A problem about which the status says all.
@@ -80,6 +83,13 @@ impl Problem {
     #[must_use]
     pub fn with(mut self, name: &str, value: impl Into<Value>) -> Self {
         self.fields.insert(name.to_owned(), value.into());
+        self
+    }
+
+    /// The same, and how to log in.
+    #[must_use]
+    pub fn challenging(mut self, challenge: impl Into<String>) -> Self {
+        self.challenge = Some(challenge.into());
         self
     }
 }
@@ -162,6 +172,10 @@ pub fn render(response: Response, request_id: Option<&str>) -> Response {
     parts.headers.insert(CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
     if let Some(seconds) = problem.retry_after_s {
         parts.headers.insert(RETRY_AFTER, HeaderValue::from(seconds));
+    }
+    // Made here, of plain characters only.
+    if let Some(Ok(challenge)) = problem.challenge.as_deref().map(HeaderValue::from_str) {
+        parts.headers.insert(WWW_AUTHENTICATE, challenge);
     }
     // Strings and numbers always serialise.
     let body = serde_json::to_vec(&problem).unwrap_or_default();

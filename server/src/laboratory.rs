@@ -3,7 +3,7 @@
 use crate::config::{Config, ResultsPlace};
 use crate::jobs::{Engine, EngineSettings, JobStore, Queue, connect};
 use crate::results::Results;
-use crate::webhooks::Policy;
+use crate::webhooks::{Policy, Sender};
 use anyhow::{Context, bail};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -48,6 +48,20 @@ impl Laboratory {
         let receivers = Arc::new(config.webhooks.policy().context("webhooks.allow")?);
         Ok(Self { receivers, engine, store, queue, results, _lock: lock })
     }
+
+    /// What makes the calls to webhooks.
+    pub fn sender(&self, config: &Config) -> Sender {
+        Sender::with_timing((*self.receivers).clone(), config.webhooks.timing())
+    }
+}
+
+/// The tables alone, which a server may be using at the same time.
+pub async fn open_tables(config: &Config) -> anyhow::Result<Arc<dyn JobStore>> {
+    let data = data_folder(config);
+    if config.database.is_none() {
+        make_folder(&data)?;
+    }
+    Ok(connect(config.database.as_ref(), &data).await?.0)
 }
 
 /// The data folder.
@@ -62,7 +76,7 @@ fn results_place(config: &Config) -> ResultsPlace {
 
 /// Makes the data folder and takes hold of it.
 fn lock(data: &Path) -> anyhow::Result<File> {
-    std::fs::create_dir_all(data).with_context(|| format!("cannot make the data folder {}", data.display()))?;
+    make_folder(data)?;
     let path = data.join("adaptarm.lock");
     let file = File::create(&path).with_context(|| format!("cannot write {}", path.display()))?;
     match file.try_lock() {
@@ -74,4 +88,8 @@ fn lock(data: &Path) -> anyhow::Result<File> {
         ),
         Err(TryLockError::Error(error)) => Err(error).with_context(|| format!("cannot lock {}", path.display())),
     }
+}
+
+fn make_folder(data: &Path) -> anyhow::Result<()> {
+    std::fs::create_dir_all(data).with_context(|| format!("cannot make the data folder {}", data.display()))
 }

@@ -14,6 +14,7 @@ pub mod config;
 pub mod document;
 pub mod download;
 pub mod error;
+pub mod events;
 pub mod figures;
 pub mod guard;
 pub mod jobs;

@@ -3,7 +3,7 @@
 use crate::error::{Problem, render};
 use crate::routes;
 use crate::state::AppState;
-use crate::{assets, guard};
+use crate::{assets, guard, metrics};
 use axum::Router;
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
@@ -31,8 +31,9 @@ pub fn build_app(state: AppState) -> Router {
                 .on_response(DefaultOnResponse::new().level(Level::INFO)),
         )
         .layer(PropagateRequestIdLayer::x_request_id())
+        .layer(middleware::from_fn(metrics::observe))
         .layer(middleware::from_fn(finish))
-        .layer(TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, crate::config::REQUEST_TIMEOUT))
+        .layer(TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, state.config.server.request_timeout()))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(middleware::from_fn_with_state(state.clone(), check_host))
         .layer(CsrfLayer::new().with_rejection_response(|_| cross_site()));

@@ -1,6 +1,8 @@
 //! What every request can reach.
 
+use crate::auth::Gate;
 use crate::config::Config;
+use crate::events::Hub;
 use crate::guard::Hosts;
 use crate::jobs::{Engine, JobStore};
 use crate::laboratory::Laboratory;
@@ -24,6 +26,10 @@ pub struct AppState {
     pub config: Arc<Config>,
     /// Whose names are answered.
     pub hosts: Hosts,
+    /// Who may do what.
+    pub gate: Arc<Gate>,
+    /// Where jobs are watched.
+    pub hub: Hub,
     draining: Arc<AtomicBool>,
 }
 
@@ -37,12 +43,16 @@ impl AppState {
             receivers: laboratory.receivers.clone(),
             config: Arc::new(config.clone()),
             hosts,
+            // Elsewhere than on this machine's own address, anyone may come.
+            gate: Arc::new(Gate::new(laboratory.store.clone(), &config.auth, hosts == Hosts::Loopback)),
+            hub: Hub::new(laboratory.store.clone()),
             draining: Arc::default(),
         }
     }
 
-    /// Tells whoever asks that this server is about to end.
+    /// Tells whoever asks that this server is about to end, and sends away whoever follows a job.
     pub fn drain(&self) {
+        self.hub.close();
         self.draining.store(true, Ordering::Relaxed);
     }
 

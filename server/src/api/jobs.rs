@@ -2,9 +2,9 @@
 
 use crate::config::Limits;
 use crate::document::brief;
-use crate::jobs::{Filter, Job, JobKind, JobState, Study, StudyError};
+use crate::jobs::{Job, JobKind, JobState, Study, StudyError};
 use crate::webhooks::{Policy, Webhook};
-use adaptarm_core::scenario::{Problem, ScenarioDocument, ScenarioError};
+use adaptarm_core::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
@@ -42,6 +42,20 @@ pub struct StudySpec {
     pub scenarios: Vec<ScenarioDocument>,
 }
 
+/// Whether a job may have this label, or one may look for it.
+pub(super) fn check_label(label: &str) -> Result<(), Problem> {
+    let (found, most) = (label.chars().count(), LABEL_CHARS);
+    if found > most {
+        return Err(Problem::TooMany { found, most, what: "characters" });
+    }
+    if label.contains(char::is_control) {
+        return Err(Problem::Malformed {
+            message: "a label has no control characters, such as line breaks".to_owned(),
+        });
+    }
+    Ok(())
+}
+
 /// A request in which everything has been checked.
 #[derive(Debug)]
 pub struct CheckedRequest {
@@ -55,15 +69,23 @@ pub struct CheckedRequest {
     pub webhook: Option<Webhook>,
 }
 
+impl CheckedRequest {
+    /// Hash of all that is asked for; how it was written makes no difference.
+    pub fn hash(&self) -> String {
+        let scenarios: Vec<_> = self.study.scenarios().iter().map(Scenario::hash).collect();
+        let canonical = (JobKind::Study, self.priority, &self.label, &self.webhook, scenarios);
+        // Strings and numbers always become JSON.
+        let text = serde_json::to_vec(&canonical).unwrap_or_default();
+        blake3::hash(&text).to_hex().to_string()
+    }
+}
+
 impl JobRequest {
     /// Checks everything in it. Takes a while for many scenarios: not for an async task.
     pub fn check(self, limits: &Limits, receivers: &Policy) -> Result<CheckedRequest, StudyError> {
         let Self { kind: JobKind::Study, spec, priority, label, webhook } = self;
         if let Some(label) = &label {
-            let (found, most) = (label.chars().count(), LABEL_CHARS);
-            if found > most {
-                return Err(ScenarioError::new("/label", Problem::TooMany { found, most, what: "characters" }).into());
-            }
+            check_label(label).map_err(|problem| ScenarioError::new("/label", problem))?;
         }
         let [min, max] = PRIORITIES;
         if !(min..=max).contains(&priority) {
@@ -172,22 +194,6 @@ impl From<Job> for JobView {
     }
 }
 
-/// Which jobs to list.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct JobsQuery {
-    /// Only those in this state.
-    pub state: Option<JobState>,
-    /// Only those of this kind.
-    pub kind: Option<JobKind>,
-    /// Only those with exactly this label.
-    pub label: Option<String>,
-    /// At most so many, 1 to 200; 50 without this.
-    pub limit: Option<u16>,
-    /// Where the page before ended.
-    pub cursor: Option<String>,
-}
-
 /// A page of jobs, newest first.
 #[derive(Debug, Clone, Serialize)]
 pub struct JobsView {
@@ -196,11 +202,4 @@ pub struct JobsView {
     /// Where the next page begins, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub next_cursor: Option<String>,
-}
-
-impl JobsQuery {
-    /// As a filter, without the cursor.
-    pub fn filter(&self) -> Filter {
-        Filter { state: self.state, kind: self.kind, label: self.label.clone(), before: None }
-    }
 }

@@ -1,11 +1,13 @@
 //! What goes over the wire: requests and answers as types, and how a request's body becomes one.
 
 pub mod catalog;
+pub mod headers;
 pub mod jobs;
+pub mod page;
 
-use crate::config::DOCUMENT_BYTES;
 use crate::document;
 use crate::error::Problem;
+use crate::state::AppState;
 use axum::body::{Body, Bytes};
 use axum::extract::{FromRequest, FromRequestParts, Path, Request};
 use axum::http::request::Parts;
@@ -18,14 +20,14 @@ use tokio::time::timeout;
 /// How long a body that is too large is read and thrown away, so that its sender comes to read the answer.
 const DISCARD_TIME: Duration = Duration::from_secs(5);
 
-/// A JSON body; every way in which it can be wrong has its own answer.
-#[derive(Debug, Clone, Copy)]
-pub struct Json<T>(pub T);
+/// The bytes of a body that is declared as JSON and is not too large. What they say is read beside the async threads.
+#[derive(Debug, Clone)]
+pub struct JsonBytes(pub Bytes);
 
-impl<T: DeserializeOwned, S: Sync> FromRequest<S> for Json<T> {
+impl FromRequest<AppState> for JsonBytes {
     type Rejection = Problem;
 
-    async fn from_request(request: Request, _: &S) -> Result<Self, Problem> {
+    async fn from_request(request: Request, state: &AppState) -> Result<Self, Problem> {
         let (parts, body) = request.into_parts();
         if !is_json(&parts.headers) {
             return Err(Problem::new(
@@ -35,8 +37,7 @@ impl<T: DeserializeOwned, S: Sync> FromRequest<S> for Json<T> {
                 "send the header `Content-Type: application/json`",
             ));
         }
-        let bytes = read_body(&parts.headers, body).await?;
-        Ok(Self(document::parse(&bytes)?))
+        read_body(&parts.headers, body, state.config.limits.request_bytes).await.map(Self)
     }
 }
 
@@ -78,10 +79,10 @@ fn is_json(headers: &HeaderMap) -> bool {
 }
 
 /// The whole body, if it is not too large.
-async fn read_body(headers: &HeaderMap, mut body: Body) -> Result<Bytes, Problem> {
+async fn read_body(headers: &HeaderMap, mut body: Body, most: usize) -> Result<Bytes, Problem> {
     let declared = headers.get(header::CONTENT_LENGTH).and_then(|value| value.to_str().ok()?.parse::<u64>().ok());
-    if declared.is_none_or(|length| length <= DOCUMENT_BYTES as u64) {
-        match Limited::new(&mut body, DOCUMENT_BYTES).collect().await {
+    if declared.is_none_or(|length| length <= most as u64) {
+        match Limited::new(&mut body, most).collect().await {
             Ok(collected) => return Ok(collected.to_bytes()),
             Err(error) if error.is::<LengthLimitError>() => {}
             Err(error) => return Err(Problem::status(StatusCode::BAD_REQUEST, format!("the body broke off: {error}"))),
@@ -94,7 +95,7 @@ async fn read_body(headers: &HeaderMap, mut body: Body) -> Result<Bytes, Problem
         let _ = timeout(DISCARD_TIME, discard).await;
     }
     let size = declared.map_or_else(String::new, |length| format!("{length} bytes are too many: "));
-    let detail = format!("{size}a body may have {DOCUMENT_BYTES} bytes (1 MiB)");
+    let detail = format!("{size}a body may have {most} bytes");
     Err(Problem::new(StatusCode::PAYLOAD_TOO_LARGE, "/problems/too-large", "Body too large", detail)
-        .with("max_bytes", DOCUMENT_BYTES))
+        .with("max_bytes", most))
 }

@@ -7,6 +7,7 @@ mod presets;
 mod run;
 mod serve;
 mod shutdown;
+mod token;
 mod worker;
 
 use crate::document::brief;
@@ -52,6 +53,8 @@ enum Command {
     Worker(worker::Arguments),
     /// Forget jobs and results that are older than the settings say.
     Gc(gc::Arguments),
+    /// Make, list or revoke the tokens by which a server on a public address knows its users.
+    Token(token::Arguments),
     /// Check the settings, or print an example file.
     Config(config::Arguments),
 }
@@ -69,6 +72,7 @@ pub fn main() -> ExitCode {
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Worker(arguments) => worker::run(&arguments),
         Command::Gc(arguments) => gc::run(&arguments),
+        Command::Token(arguments) => token::run(&arguments),
         Command::Config(arguments) => config::run(&arguments),
     };
     match done {

@@ -10,15 +10,19 @@ use crate::laboratory::Laboratory;
 use crate::results::Results;
 use crate::state::AppState;
 use crate::stdout::print;
-use crate::{listener, metrics, router, telemetry};
+use crate::{listener, metrics, router, telemetry, webhooks};
 use clap::Args;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::TcpListener;
+use tokio::sync::watch;
 use tokio::time::{sleep, timeout};
 
 /// Time between two looks at what can be forgotten.
 const UPKEEP_INTERVAL: Duration = Duration::from_hours(1);
+
+/// How long the end waits for calls to webhooks that are under way.
+pub(super) const CALLS_DRAIN: Duration = Duration::from_secs(2);
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -44,13 +48,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut flags = arguments.compute.flags();
     flags.extend(arguments.bind.iter().map(|bind| ("bind", bind.clone())));
     let config = arguments.storage.load(flags)?.config;
-    if !config.bind.ip().is_loopback() {
-        return Err(Failure::input(format!(
-            "--bind {}: other machines could reach this address, and there are no accounts or keys yet to keep them \
-             from using it; bind to 127.0.0.1, and use an SSH tunnel or an authenticating proxy to come from elsewhere",
-            config.bind
-        )));
-    }
     telemetry::start(&config.log);
     metrics::start();
     super::runtime()?.block_on(serve(&config))
@@ -69,6 +66,8 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         let engine = engine.clone();
         async move { engine.run().await }
     });
+    let (end, ending) = watch::channel(false);
+    let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
     let upkeep = tokio::spawn(keep_tidy(
         laboratory.store.clone(),
         laboratory.queue.clone(),
@@ -76,10 +75,17 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         config.retention.clone(),
     ));
     let measuring = tokio::spawn(metrics::keep_small());
+    if !bound.ip().is_loopback() && laboratory.store.tokens().await.map_err(Failure::chain)?.is_empty() {
+        tracing::warn!(
+            "other machines can reach {bound}, so every request for jobs needs a token, and there are none yet: \
+             `adaptarm token create --owner NAME`, with the same --data or --database, makes one"
+        );
+    }
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
     let stop = || {
         state.drain();
         engine.stop();
+        end.send_replace(true);
     };
     listener::serve(listener, app, &config.server, shutdown.wait(stop)).await;
     upkeep.abort();
@@ -88,6 +94,8 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     if timeout(config.server.drain(), working).await.is_err() {
         tracing::warn!("some shards were still saving their state after {} s", config.server.drain_s);
     }
+    // What is not delivered by then stays in the queue.
+    let _ = timeout(CALLS_DRAIN, calling).await;
     tracing::info!("stopped");
     Ok(())
 }

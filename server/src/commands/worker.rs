@@ -2,12 +2,15 @@
 
 use super::Failure;
 use super::options::{ComputeOptions, StorageOptions};
+use super::serve::CALLS_DRAIN;
 use super::shutdown::Shutdown;
 use crate::config::Config;
 use crate::laboratory::Laboratory;
 use crate::stdout::print;
-use crate::{metrics, telemetry};
+use crate::{metrics, telemetry, webhooks};
 use clap::Args;
+use tokio::sync::watch;
+use tokio::time::timeout;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -48,11 +51,16 @@ async fn work(config: &Config) -> Result<(), Failure> {
     let laboratory = Laboratory::open(config).await.map_err(Failure::chain)?;
     print("adaptarm worker is ready\n")?;
     let engine = laboratory.engine.clone();
+    let (end, ending) = watch::channel(false);
+    let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
     let stop = async {
         shutdown.wait(|| {}).await;
         engine.stop();
+        end.send_replace(true);
     };
     tokio::join!(laboratory.engine.run(), stop);
+    // What is not delivered by then stays in the queue.
+    let _ = timeout(CALLS_DRAIN, calling).await;
     tracing::info!("stopped");
     Ok(())
 }

@@ -1,11 +1,15 @@
 //! Whether this process lives, and whether it takes work.
 
-use super::problems::{database, stored};
+use super::problems::{database, draining, stored};
+use crate::auth::Observer;
 use crate::error::Problem;
+use crate::jobs::JobState;
+use crate::metrics as record;
 use crate::state::AppState;
 use axum::Json;
 use axum::extract::State;
-use axum::http::StatusCode;
+use axum::http::header;
+use axum::response::IntoResponse;
 use serde_json::{Value, json};
 
 pub(super) async fn alive() -> Json<Value> {
@@ -14,9 +18,18 @@ pub(super) async fn alive() -> Json<Value> {
 
 pub(super) async fn ready(State(state): State<AppState>) -> Result<Json<Value>, Problem> {
     if state.is_draining() {
-        return Err(Problem::status(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down"));
+        return Err(draining());
     }
     let [queued, running] = state.store.unfinished().await.map_err(database)?;
     state.results.check().await.map_err(|error| stored(&error))?;
     Ok(Json(json!({ "status": "ready", "unfinished_jobs": queued + running })))
+}
+
+/// Counts and times for Prometheus.
+pub(super) async fn metrics(State(state): State<AppState>, _: Observer) -> Result<impl IntoResponse, Problem> {
+    let [queued, running] = state.store.unfinished().await.map_err(database)?;
+    for (state, jobs) in [(JobState::Queued, queued), (JobState::Running, running)] {
+        record::queue_depth(state, jobs.max(0) as u64);
+    }
+    Ok(([(header::CONTENT_TYPE, "text/plain; version=0.0.4; charset=utf-8")], record::render()))
 }

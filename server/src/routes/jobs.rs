@@ -1,63 +1,120 @@
 //! Submitting jobs, looking at them, stopping and forgetting them.
 
-use super::problems::{database, no_job};
-use crate::api::jobs::{JobRequest, JobView, JobsQuery, JobsView, location};
-use crate::api::{self, Name, Query};
+use super::problems::{database, draining, no_job};
+use crate::api::headers::{IDEMPOTENCY_REPLAYED, PREFERENCE_APPLIED, idempotency_key, preferred_wait};
+use crate::api::jobs::{JobRequest, JobView, JobsView, location};
+use crate::api::page::{JobsQuery, cursor};
+use crate::api::{JsonBytes, Name, Query};
+use crate::auth::{Reader, Writer};
+use crate::config::Config;
+use crate::document;
 use crate::error::Problem;
 use crate::jobs::{Job, NewJob};
 use crate::state::AppState;
+use crate::webhooks::Policy;
 use axum::Json;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use std::time::Duration;
+use tokio::task::spawn_blocking;
 use uuid::Uuid;
-
-/// Whose jobs are meant.
-const OWNER: &str = "local";
 
 pub(super) async fn submit(
     State(state): State<AppState>,
+    Writer(owner): Writer,
     headers: HeaderMap,
-    api::Json(request): api::Json<JobRequest>,
+    JsonBytes(bytes): JsonBytes,
 ) -> Result<Response, Problem> {
     if state.is_draining() {
-        return Err(Problem::status(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down"));
+        return Err(draining());
     }
-    let (config, receivers) = (state.config.clone(), state.receivers.clone());
-    let kind = request.kind;
+    let key = idempotency_key(&headers)?;
+    let (config, receivers, name) = (state.config.clone(), state.receivers.clone(), owner.to_string());
     // Thousands of scenarios take a while.
-    let checked = tokio::task::spawn_blocking(move || {
-        let checked = request.check(&config.limits, &receivers)?;
-        Ok::<_, Problem>((checked.study.into_new_scenarios(), checked.label, checked.priority, checked.webhook))
-    });
-    let (scenarios, label, priority, webhook) = checked.await.map_err(super::internal)??;
-    let job = NewJob { owner: OWNER.to_owned(), kind, label, priority, webhook, idempotency: None, scenarios };
-    let submitted = state.engine.submit(job).await.map_err(database)?;
-    let location = [(header::LOCATION, location(submitted.job.id))];
-    let _ = headers;
-    Ok((StatusCode::ACCEPTED, location, Json(JobView::from(submitted.job))).into_response())
+    let job = spawn_blocking(move || new_job(&bytes, name, key, &config, &receivers));
+    let submitted = state.engine.submit(job.await.map_err(super::internal)??).await.map_err(database)?;
+    let (mut job, mut more) = (submitted.job, HeaderMap::new());
+    if submitted.repeated {
+        more.insert(IDEMPOTENCY_REPLAYED, HeaderValue::from_static("true"));
+    }
+    let mut status = StatusCode::ACCEPTED;
+    if let Some(wait) = preferred_wait(&headers) {
+        let wait = wait.min(Duration::from_secs(state.config.limits.wait_s));
+        if !job.state.is_final() && state.hub.wait(job.id, wait).await {
+            // It may have been deleted meanwhile; then this is the last that was known of it.
+            job = state.store.job(owner.as_str(), job.id).await.map_err(database)?.unwrap_or(job);
+        }
+        if job.state.is_final() {
+            status = StatusCode::OK;
+        }
+        let applied = HeaderValue::from_str(&format!("wait={}", wait.as_secs())).map_err(super::internal)?;
+        more.insert(PREFERENCE_APPLIED, applied);
+    }
+    let location = [(header::LOCATION, location(job.id))];
+    Ok((status, location, more, Json(JobView::from(job))).into_response())
+}
+
+/// What a body asks for, everything checked.
+fn new_job(
+    bytes: &[u8],
+    owner: String,
+    key: Option<String>,
+    config: &Config,
+    receivers: &Policy,
+) -> Result<NewJob, Problem> {
+    let request: JobRequest = document::parse(bytes)?;
+    let kind = request.kind;
+    let request = request.check(&config.limits, receivers)?;
+    Ok(NewJob {
+        owner,
+        kind,
+        idempotency: key.map(|key| (key, request.hash())),
+        label: request.label,
+        priority: request.priority,
+        webhook: request.webhook,
+        scenarios: request.study.into_new_scenarios(),
+    })
 }
 
 pub(super) async fn list(
     State(state): State<AppState>,
+    Reader(owner): Reader,
     Query(query): Query<JobsQuery>,
 ) -> Result<Json<JobsView>, Problem> {
-    let jobs = state.store.jobs(OWNER, &query.filter(), 50).await.map_err(database)?;
-    Ok(Json(JobsView { jobs: jobs.into_iter().map(JobView::from).collect(), next_cursor: None }))
+    let page = query.check(owner.as_str())?;
+    // One more tells whether there is another page.
+    let mut jobs = state.store.jobs(owner.as_str(), &page.filter, page.limit + 1).await.map_err(database)?;
+    let more = jobs.len() as i64 > page.limit;
+    jobs.truncate(page.limit as usize);
+    let next_cursor = jobs.last().filter(|_| more).map(|last| cursor(owner.as_str(), last.id));
+    Ok(Json(JobsView { jobs: jobs.into_iter().map(JobView::from).collect(), next_cursor }))
 }
 
-pub(super) async fn show(State(state): State<AppState>, Name(id): Name) -> Result<Json<JobView>, Problem> {
-    Ok(Json(find(&state, OWNER, &id).await?.into()))
+pub(super) async fn show(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name(id): Name,
+) -> Result<Json<JobView>, Problem> {
+    Ok(Json(find(&state, owner.as_str(), &id).await?.into()))
 }
 
 /// Cancelling a job that has ended changes nothing and is no mistake: it may have ended a moment ago.
-pub(super) async fn cancel(State(state): State<AppState>, Name(id): Name) -> Result<Json<JobView>, Problem> {
-    let job = state.store.cancel(OWNER, parse(&id)?).await.map_err(database)?;
+pub(super) async fn cancel(
+    State(state): State<AppState>,
+    Writer(owner): Writer,
+    Name(id): Name,
+) -> Result<Json<JobView>, Problem> {
+    let job = state.store.cancel(owner.as_str(), parse(&id)?).await.map_err(database)?;
     Ok(Json(job.ok_or_else(|| no_job(&id))?.into()))
 }
 
-pub(super) async fn delete(State(state): State<AppState>, Name(id): Name) -> Result<StatusCode, Problem> {
-    let deleted = state.store.delete(OWNER, parse(&id)?).await.map_err(database)?;
+pub(super) async fn delete(
+    State(state): State<AppState>,
+    Writer(owner): Writer,
+    Name(id): Name,
+) -> Result<StatusCode, Problem> {
+    let deleted = state.store.delete(owner.as_str(), parse(&id)?).await.map_err(database)?;
     if deleted { Ok(StatusCode::NO_CONTENT) } else { Err(no_job(&id)) }
 }
 

@@ -1,9 +1,10 @@
 //! Handlers: they translate between HTTP and the rest, and nothing more.
 
 mod catalog;
+mod events;
 mod health;
 mod jobs;
-mod problems;
+pub(crate) mod problems;
 mod results;
 
 use crate::compression;
@@ -25,6 +26,7 @@ pub fn api() -> Router<AppState> {
         .route("/limits", get(catalog::limits))
         .route("/jobs", post(jobs::submit).get(jobs::list))
         .route("/jobs/{id}", get(jobs::show).delete(jobs::delete))
+        .route("/jobs/{id}/events", get(events::events))
         .route("/jobs/{id}/cancel", post(jobs::cancel))
         .route("/jobs/{id}/result", get(results::result))
         .route("/jobs/{id}/result/series", get(results::series))
@@ -43,7 +45,10 @@ pub fn api() -> Router<AppState> {
 
 /// What watches over servers asks at the top level.
 pub fn health() -> Router<AppState> {
-    Router::new().route("/healthz", get(health::alive)).route("/readyz", get(health::ready))
+    Router::new()
+        .route("/healthz", get(health::alive))
+        .route("/readyz", get(health::ready))
+        .route("/metrics", get(health::metrics))
 }
 
 /// Our own constants cannot be wrong; if one is, that is our failure.

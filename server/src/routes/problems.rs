@@ -13,8 +13,14 @@ pub(super) fn no_job(id: &str) -> Problem {
     Problem::not_found("job", id)
 }
 
+/// Nothing begins here any more.
+pub(super) fn draining() -> Problem {
+    let problem = Problem::status(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down");
+    Problem { retry_after_s: Some(RETRY_AFTER_S), ..problem }
+}
+
 /// What the tables say.
-pub(super) fn database(error: StoreError) -> Problem {
+pub(crate) fn database(error: StoreError) -> Problem {
     let detail = error.to_string();
     match error {
         StoreError::Quota { what, found, more, most } => {

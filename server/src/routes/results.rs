@@ -2,7 +2,8 @@
 
 use super::jobs::find;
 use super::problems::{database, not_ready, stored};
-use crate::api::Query;
+use crate::api::{Name, Query};
+use crate::auth::Reader;
 use crate::error::Problem;
 use crate::figures::FigureRequest;
 use crate::jobs::{Job, JobState, ScenarioRow};
@@ -18,14 +19,16 @@ use futures_util::stream;
 use serde::Deserialize;
 use std::sync::Arc;
 
-const OWNER: &str = "local";
-
 /// Scenarios read at a time.
 const PAGE: i64 = 200;
 
 /// The whole result, or as far as it came; written down piece by piece, because ten thousand reports are large.
-pub(super) async fn result(State(state): State<AppState>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let job = find(&state, OWNER, &id).await?;
+pub(super) async fn result(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name(id): Name,
+) -> Result<Response, Problem> {
+    let job = find(&state, owner.as_str(), &id).await?;
     if !job.state.is_final() {
         return Err(not_ready(&job, "its result"));
     }
@@ -58,11 +61,12 @@ pub(super) async fn result(State(state): State<AppState>, Path(id): Path<String>
 /// The samples of one scenario.
 pub(super) async fn series(
     State(state): State<AppState>,
-    Path(id): Path<String>,
+    Reader(owner): Reader,
+    Name(id): Name,
     Query(query): Query<SeriesQuery>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = find(&state, OWNER, &id).await?;
+    let job = find(&state, owner.as_str(), &id).await?;
     let (row, report) = find_report(&state, &job, query.scenario).await?;
     let request = SeriesRequest::new(&query, &report)?;
     if let Some(response) = request.not_modified(&headers) {
@@ -82,11 +86,12 @@ pub(super) struct FigureQuery {
 /// A figure of one scenario.
 pub(super) async fn figure(
     State(state): State<AppState>,
+    Reader(owner): Reader,
     Path((id, name)): Path<(String, String)>,
     Query(query): Query<FigureQuery>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = find(&state, OWNER, &id).await?;
+    let job = find(&state, owner.as_str(), &id).await?;
     let (row, report) = find_report(&state, &job, query.scenario).await?;
     let request = FigureRequest::new(&name, &report)?;
     if let Some(response) = request.not_modified(&headers) {

@@ -11,6 +11,7 @@ mod retry;
 mod signature;
 mod target;
 mod tls;
+pub mod worker;
 
 #[cfg(test)]
 mod tests;
