@@ -137,7 +137,10 @@ impl Client {
             let job = answer.expect(200)?;
             Ok(is_final(&job).then_some(job))
         })
-        .with_context(|| format!("waiting for the end of job {id}"))
+        .with_context(|| match self.job(id) {
+            Ok(job) => format!("waiting for the end of {job}"),
+            Err(error) => format!("waiting for the end of job {id}, about which nobody answers ({error:#})"),
+        })
     }
 
     /// Returns once every job has ended, which must be within this time.

@@ -97,7 +97,7 @@ fn replacement(value: &Value, random: &mut StdRng) -> Value {
 /// A number that may well be allowed too.
 fn nearby(value: &Value, random: &mut StdRng) -> Value {
     match (value.as_u64(), value.as_f64()) {
-        (Some(whole), _) => json!(whole + random.random_range(0..5)),
+        (Some(whole), _) => json!(whole.saturating_add(random.random_range(0..5))),
         (None, Some(number)) => json!(number * random.random_range(0.9..1.1)),
         (None, None) => value.clone(),
     }
