@@ -152,13 +152,20 @@ impl Worker<'_> {
                 // Computing goes on: the fence decides in the end whether it was worth it.
                 Err(error) => tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}"),
             }
-            if order == Order::Continue && (self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim)) {
+            // A suspect that has come this far is none any more, and need not keep everyone else waiting.
+            let acquitted = turn_over && self.claim.suspect;
+            if order == Order::Continue && (acquitted || self.must_let_go()) {
                 order = Order::Yield;
             }
             if order != Order::Continue || turn_over {
                 control.pause();
             }
         }
+    }
+
+    /// Whether this process is about to end, or a suspect waits to be alone in it.
+    fn must_let_go(&self) -> bool {
+        self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim)
     }
 
     async fn tick(&mut self, steps: u64, saved: bool, turn_over: bool) -> Result<Order, StoreError> {
@@ -210,7 +217,7 @@ impl Worker<'_> {
         self.counted = 0;
         match delivered.map_err(Stopped::Unreachable)? {
             super::Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
-            _ if self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim) => {
+            _ if self.claim.suspect || self.must_let_go() => {
                 if self.claim.scenarios.last().is_some_and(|(last, _)| *last == n) {
                     Ok(())
                 } else {

@@ -24,13 +24,18 @@ const CLAIM_LOCK: i64 = 0x0061_6461_7074_6172;
 /// Held while the tables are made: several processes may start at once.
 const MIGRATION_LOCK: i64 = CLAIM_LOCK + 1;
 
+/// What every session keeps to. A worker that is frozen or cut off in the middle of a transaction would hold its locks for
+/// ever; after this time, ms, the database takes them back, and the worker finds its connection gone.
+const SESSION: [(&str, &str); 3] =
+    [("idle_in_transaction_session_timeout", "5000"), ("lock_timeout", "10000"), ("tcp_keepalives_idle", "30")];
+
 /// Connects.
 pub(super) async fn open(url: &str) -> Result<SqlStore, StoreError> {
     let options: PgConnectOptions = url.parse()?;
     let pool = PgPoolOptions::new()
         .max_connections(CONNECTIONS)
         .acquire_timeout(Duration::from_secs(10))
-        .connect_with(options.application_name("adaptarm"))
+        .connect_with(options.application_name("adaptarm").options(SESSION))
         .await?;
     let mut held = pool.acquire().await?;
     sqlx::query("SELECT pg_advisory_lock($1)").bind(MIGRATION_LOCK).execute(&mut *held).await?;
