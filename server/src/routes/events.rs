@@ -18,7 +18,6 @@ use serde::Deserialize;
 use serde_json::json;
 use std::convert::Infallible;
 use std::time::Duration;
-use utoipa::IntoParams;
 use uuid::Uuid;
 
 /// Where a client that lost its connection goes on.
@@ -31,7 +30,7 @@ const NO_BUFFERING: (HeaderName, &str) = (HeaderName::from_static("x-accel-buffe
 const KEEP_ALIVE: Duration = Duration::from_secs(15);
 
 /// Where to begin.
-#[derive(Debug, Clone, Default, Deserialize, IntoParams)]
+#[derive(Debug, Clone, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub(super) struct EventsQuery {
@@ -40,6 +39,27 @@ pub(super) struct EventsQuery {
     last_event_id: Option<String>,
 }
 
+/// Follows a job to its end, by server-sent events.
+///
+/// `state` events tell `{id, state, reason?, at}`, `summary` events `{scenario, report}` for each scenario that has its
+/// result; these have ids and come again to whoever resumes. `progress` events, without ids, tell
+/// `{progress, scenarios_done}` a few times a second while it changes. The stream ends after the final state. Needs the
+/// scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/events", operation_id = "follow_job", tag = "jobs",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        EventsQuery,
+        (
+            "Last-Event-ID" = Option<u32>, Header, minimum = 0,
+            description = "Id of the last event that you have: the stream goes on after it.",
+        ),
+    ),
+    responses(
+        (status = 200, description = "The events.", body = String, content_type = "text/event-stream"),
+        (status = 204, description = "The job has ended, and you know all of it: do not come again."),
+    ),
+)]
 pub(super) async fn events(
     State(state): State<AppState>,
     Reader(owner): Reader,

@@ -7,6 +7,7 @@ use crate::auth::Reader;
 use crate::error::Problem;
 use crate::figures::FigureRequest;
 use crate::jobs::{Job, JobState, ScenarioRow};
+use crate::openapi::StudyResult;
 use crate::series::{SeriesQuery, SeriesRequest};
 use crate::state::AppState;
 use adaptarm_core::recording::Recording;
@@ -22,7 +23,11 @@ use std::sync::Arc;
 /// Scenarios read at a time.
 const PAGE: i64 = 200;
 
-/// The whole result, or as far as it came; written down piece by piece, because ten thousand reports are large.
+/// The result of a job that has ended: whole, or as far as it came. Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result", operation_id = "result", tag = "results", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
+    responses((status = 200, description = "The reports.", body = StudyResult)),
+)]
 pub(super) async fn result(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -35,6 +40,7 @@ pub(super) async fn result(
     let complete = job.state == JobState::Succeeded;
     let head =
         format!(r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#, job.state.id());
+    // Piece by piece: ten thousand reports are large.
     let pieces = stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
         if from > job.scenarios {
             return Ok(None);
@@ -58,7 +64,32 @@ pub(super) async fn result(
     Ok(([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces)).into_response())
 }
 
-/// The samples of one scenario.
+/// The samples of one scenario, also while others are still computed. Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/series", operation_id = "series", tag = "results",
+    params(("id" = uuid::Uuid, Path, description = "The job's identifier."), SeriesQuery, ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."), ("Range" = Option<String>, Header, example = "bytes=0-999", description = "The part of the file that you want.")),
+    responses(
+        (
+            status = 200, description = "The samples.",
+            content(
+                (String = "text/csv"),
+                (Vec<u8> = "application/octet-stream"),
+                (Vec<u8> = "application/vnd.apache.parquet"),
+            ),
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (
+            status = 206, description = "The part that is asked for.",
+            content(
+                (String = "text/csv"),
+                (Vec<u8> = "application/octet-stream"),
+                (Vec<u8> = "application/vnd.apache.parquet"),
+            ),
+            headers(("Content-Range" = String, description = "Which part it is.")),
+        ),
+        (status = 304, description = "You have this file."),
+    ),
+)]
 pub(super) async fn series(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -76,14 +107,39 @@ pub(super) async fn series(
 }
 
 /// Which scenario's figure.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
 pub(super) struct FigureQuery {
     /// Number of the scenario; the first is 0.
+    #[param(required = false)]
     scenario: usize,
 }
 
-/// A figure of one scenario.
+/// A figure of one scenario, as drawn for the published study. Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/figures/{name}", operation_id = "figure", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        ("name" = String, Path, description = "The figure's file; a wrong name is answered with all that there are.", example = "torques.svg"),
+        FigureQuery,
+        ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
+        ("Range" = Option<String>, Header, example = "bytes=0-999", description = "The part of the file that you want."),
+    ),
+    responses(
+        (
+            status = 200, description = "The picture.",
+            content((String = "image/svg+xml"), (Vec<u8> = "image/png")),
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (
+            status = 206, description = "The part that is asked for.",
+            content((String = "image/svg+xml"), (Vec<u8> = "image/png")),
+            headers(("Content-Range" = String, description = "Which part it is.")),
+        ),
+        (status = 304, description = "You have this picture."),
+    ),
+)]
 pub(super) async fn figure(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -120,5 +176,5 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
 async fn samples(state: &AppState, row: &ScenarioRow) -> Result<Arc<Recording>, Problem> {
     let (version, checksum) =
         (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
-    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(|error| stored(&error))
+    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(stored)
 }
