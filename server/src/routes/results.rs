@@ -176,5 +176,5 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
 async fn samples(state: &AppState, row: &ScenarioRow) -> Result<Arc<Recording>, Problem> {
     let (version, checksum) =
         (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
-    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(stored)
+    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(|error| stored(&error))
 }
