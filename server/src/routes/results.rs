@@ -23,7 +23,9 @@ use std::sync::Arc;
 /// Scenarios read at a time.
 const PAGE: i64 = 200;
 
-/// The result of a job that has ended: whole, or as far as it came. Needs the scope `jobs:read`.
+/// The result of a job that has ended: whole, or as far as it came.
+///
+/// Needs the scope `jobs:read`.
 #[utoipa::path(
     get, path = "/api/v1/jobs/{id}/result", operation_id = "result", tag = "results", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
     responses((status = 200, description = "The reports.", body = StudyResult)),
@@ -66,7 +68,9 @@ pub(super) async fn result(
     Ok(([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces)).into_response())
 }
 
-/// The samples of one scenario, also while others are still computed. Needs the scope `jobs:read`.
+/// The samples of one scenario, also while others are still computed.
+///
+/// Needs the scope `jobs:read`.
 #[utoipa::path(
     get, path = "/api/v1/jobs/{id}/result/series", operation_id = "series", tag = "results",
     params(("id" = uuid::Uuid, Path, description = "The job's identifier."), SeriesQuery, ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."), ("Range" = Option<String>, Header, example = "bytes=0-999", description = "The part of the file that you want.")),
@@ -118,7 +122,9 @@ pub(super) struct FigureQuery {
     scenario: usize,
 }
 
-/// A figure of one scenario, as drawn for the published study. Needs the scope `jobs:read`.
+/// A figure of one scenario, as drawn for the published study.
+///
+/// Needs the scope `jobs:read`.
 #[utoipa::path(
     get, path = "/api/v1/jobs/{id}/result/figures/{name}", operation_id = "figure", tag = "results",
     params(
