@@ -39,7 +39,9 @@ impl Laboratory {
         if lock.is_some() {
             let buried = store.bury_all().await?;
             if buried > 0 {
-                tracing::warn!("{buried} shards were under way when this server last ended; they go on from what was saved");
+                tracing::warn!(
+                    "{buried} shards were under way when this server last ended; they go on from what was saved"
+                );
             }
         }
         let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;

@@ -3,6 +3,8 @@
 //!
 //! Tests build the same application in process: [`router::build_app`].
 
+#![allow(clippy::duplicate_mod, reason = "the same statements are compiled once for each database")]
+
 pub mod api;
 pub mod assets;
 pub mod auth;

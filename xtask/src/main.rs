@@ -6,6 +6,9 @@ mod bench;
 mod browser;
 mod debian;
 mod dist;
+mod postgres;
+mod python;
+mod requirement;
 mod serve;
 mod steps;
 mod test;
@@ -48,7 +51,8 @@ enum Task {
 
 /// Install what the other commands need (they call this themselves).
 ///
-/// Always: Rust's standard library for WebAssembly. For tests also: a browser, its driver and a font.
+/// Always: Rust's standard library for WebAssembly. For tests also: a browser, its driver and a font; PostgreSQL's
+/// programs; Python packages in target/python.
 /// Uses rustup where it can, else Debian's packages when run as root, else explains what to install.
 #[derive(Args)]
 struct SetupArgs {
@@ -61,7 +65,7 @@ struct SetupArgs {
 enum Purpose {
     /// Building and serving: the WebAssembly toolchain.
     Serve,
-    /// The same and the browser that the end-to-end tests drive.
+    /// The same, and the browser, PostgreSQL and Python packages that end-to-end tests use.
     Test,
 }
 
@@ -92,11 +96,12 @@ pub(crate) struct ServeArgs {
 
 /// Run every check: house rules, formatting, lints, unit tests, real server, real browser, optimised and not.
 ///
-/// Stops at the first failing step and prints the command that repeats it. Without a browser its tests show as
-/// ignored; `REQUIRE_BROWSER=1` (implied by `CI=true`) makes that a failure.
+/// Stops at the first failing step and prints the command that repeats it. Without a browser, PostgreSQL or Python their
+/// tests show as ignored; `REQUIRE_BROWSER=1`, `REQUIRE_POSTGRES=1`, `REQUIRE_PYTHON=1` (implied by `CI=true`) make that
+/// a failure.
 #[derive(Args)]
 pub(crate) struct TestArgs {
-    /// Try every property on 20 000 random cases instead of 256: some five minutes more.
+    /// The long forms: 20 000 random cases per property instead of 256, and an hour of crashes, load and fuzzing.
     #[arg(long)]
     soak: bool,
     /// Neither install nor use a browser.
@@ -147,6 +152,13 @@ pub(crate) fn setup(workspace: &Workspace, purpose: Purpose) -> Result<()> {
     wasm_toolchain::ensure(workspace)?;
     if purpose == Purpose::Test {
         browser::ensure()?;
+        setup_services(workspace)?;
     }
     Ok(())
+}
+
+/// What end-to-end tests use beside a browser.
+pub(crate) fn setup_services(workspace: &Workspace) -> Result<()> {
+    postgres::ensure()?;
+    python::ensure(workspace)
 }

@@ -6,9 +6,13 @@ use std::process::Command;
 
 use anyhow::{Result, bail};
 
+use crate::browser::BROWSER;
+use crate::postgres::{self, POSTGRES};
+use crate::python::{self, PYTHON};
+use crate::requirement::Requirement;
 use crate::steps::{Outcome, Steps};
 use crate::workspace::{Workspace, build_server};
-use crate::{DistArgs, Purpose, TestArgs, browser, dist, setup, tidy, tools};
+use crate::{DistArgs, Purpose, TestArgs, dist, setup, setup_services, tidy, tools};
 
 /// Random cases per property in a soak; proptest's own default is 256.
 const SOAK_CASES: &str = "20000";
@@ -16,11 +20,10 @@ const UNOPTIMISED_TEST: &str = "core/tests/trajectory_hashes.rs";
 
 pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
     let mut steps = Steps::new();
-    let purpose = if args.no_browser { Purpose::Serve } else { Purpose::Test };
     let every_check = args.filter.is_none();
 
     if every_check {
-        steps.run("setup", "cargo xtask setup", || done(setup(workspace, purpose)))?;
+        steps.run("setup", "cargo xtask setup", || done(prepare(workspace, args)))?;
         steps.run("tidy", "cargo xtask tidy", || done(tidy::run(workspace)))?;
         component(&mut steps, "formatting", "fmt", "rustfmt", &mut formatting(workspace))?;
     }
@@ -30,7 +33,7 @@ pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
         component(&mut steps, "lints", "clippy", "clippy", &mut lints(workspace))?;
     }
     tool(&mut steps, "server", &mut build_server(workspace, "release"))?;
-    tool(&mut steps, "tests", &mut tests(workspace, args))?;
+    tool(&mut steps, "tests", &mut tests(workspace, args)?)?;
     if every_check {
         if workspace.root.join(UNOPTIMISED_TEST).is_file() {
             tool(&mut steps, "unoptimised bits", &mut unoptimised(workspace))?;
@@ -41,6 +44,15 @@ pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
     }
     steps.print_table();
     Ok(())
+}
+
+fn prepare(workspace: &Workspace, args: &TestArgs) -> Result<()> {
+    if args.no_browser {
+        setup(workspace, Purpose::Serve)?;
+        setup_services(workspace)
+    } else {
+        setup(workspace, Purpose::Test)
+    }
 }
 
 fn formatting(workspace: &Workspace) -> Command {
@@ -58,22 +70,29 @@ fn lints(workspace: &Workspace) -> Command {
 }
 
 /// The workspace's tests, told where the server's program is and what they may use.
-fn tests(workspace: &Workspace, args: &TestArgs) -> Command {
+fn tests(workspace: &Workspace, args: &TestArgs) -> Result<Command> {
     let mut command = workspace.cargo();
     command.env("ADAPTARM_BIN", workspace.server_program("release"));
     if args.soak {
-        command.env("PROPTEST_CASES", SOAK_CASES);
+        command.env("PROPTEST_CASES", SOAK_CASES).env("ADAPTARM_SOAK", "1");
+    }
+    for requirement in [BROWSER, POSTGRES, PYTHON].into_iter().filter(Requirement::is_required) {
+        command.env(requirement.variable(), "1");
     }
     if args.no_browser {
-        command.env("ADAPTARM_NO_BROWSER", "1").env_remove("REQUIRE_BROWSER");
-    } else if browser::is_required() {
-        command.env("REQUIRE_BROWSER", "1");
+        command.env("ADAPTARM_NO_BROWSER", "1").env_remove(BROWSER.variable());
+    }
+    if let Some(folder) = postgres::programs() {
+        command.env("ADAPTARM_POSTGRES", folder);
+    }
+    if python::is_current(workspace)? {
+        command.env("ADAPTARM_PYTHON", python::interpreter(workspace));
     }
     command.args(["test", "--workspace", "--all-features", "--locked"]);
     if let Some(filter) = &args.filter {
         command.args(["--", filter]);
     }
-    command
+    Ok(command)
 }
 
 /// The same trajectories without optimisation anywhere: the bits must not depend on it.

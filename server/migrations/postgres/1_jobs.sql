@@ -26,7 +26,9 @@ CREATE TABLE job (
     UNIQUE (owner, idempotency_key)
 );
 CREATE INDEX job_of_owner ON job (owner, id);
-CREATE INDEX job_open ON job (owner) WHERE state IN ('queued', 'running');
+-- A user's limits are sums over these two, asked for by every submission.
+CREATE INDEX job_open ON job (owner, steps_total, steps_done) WHERE state IN ('queued', 'running');
+CREATE INDEX job_bytes ON job (owner, bytes);
 CREATE INDEX job_finished ON job (finished_at) WHERE finished_at IS NOT NULL;
 
 CREATE TABLE job_scenario (

@@ -52,7 +52,9 @@ pub(super) fn check_label(label: &str) -> Result<(), Problem> {
         return Err(Problem::TooMany { found, most, what: "characters" });
     }
     if label.contains(char::is_control) {
-        return Err(Problem::Malformed { message: "a label has no control characters, such as line breaks".to_owned() });
+        return Err(Problem::Malformed {
+            message: "a label has no control characters, such as line breaks".to_owned(),
+        });
     }
     Ok(())
 }

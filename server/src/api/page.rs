@@ -83,12 +83,11 @@ fn name<T>(parameter: &str, value: &str, read: impl Fn(&str) -> Option<T>, allow
 fn wrong_label(wrong: Wrong) -> Problem {
     let message = wrong.to_string();
     match wrong {
-        Wrong::TooMany { found, .. } => {
-            invalid("/problems/too-long", "Longer than allowed", "label", "", &message)
-                .with("found", found)
-                .with("most", LABEL_CHARS)
-        }
-        _ => invalid("/problems/malformed", "Not the text that is needed", "label", "", &message).with("message", message),
+        Wrong::TooMany { found, .. } => invalid("/problems/too-long", "Longer than allowed", "label", "", &message)
+            .with("found", found)
+            .with("most", LABEL_CHARS),
+        _ => invalid("/problems/malformed", "Not the text that is needed", "label", "", &message)
+            .with("message", message),
     }
 }
 
@@ -152,7 +151,10 @@ mod tests {
         let text = |text: &str| Some(text.to_owned());
         let usual = PageRequest { filter: Filter::default(), limit: 50 };
         assert_eq!(check(JobsQuery::default()), Ok(usual.clone()));
-        assert_eq!(check(JobsQuery { limit: text("200"), ..JobsQuery::default() }), Ok(PageRequest { limit: 200, ..usual }));
+        assert_eq!(
+            check(JobsQuery { limit: text("200"), ..JobsQuery::default() }),
+            Ok(PageRequest { limit: 200, ..usual })
+        );
         for (query, kind, words) in [
             (JobsQuery { limit: text("0"), ..JobsQuery::default() }, "/problems/out-of-range", "from 1 to 200"),
             (JobsQuery { limit: text("201"), ..JobsQuery::default() }, "/problems/out-of-range", "from 1 to 200"),

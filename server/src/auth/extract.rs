@@ -7,8 +7,8 @@ use crate::listener::Peer;
 use crate::routes::problems::database;
 use crate::state::AppState;
 use axum::extract::FromRequestParts;
-use axum::http::request::Parts;
 use axum::http::StatusCode;
+use axum::http::request::Parts;
 use std::net::{IpAddr, Ipv4Addr};
 
 /// May read jobs.
@@ -57,7 +57,8 @@ impl From<Refusal> for Problem {
     fn from(refusal: Refusal) -> Self {
         let detail = refusal.to_string();
         let unauthorized = |challenge: &str| {
-            Self::new(StatusCode::UNAUTHORIZED, "/problems/token", "A token is needed", detail.clone()).challenging(challenge)
+            Self::new(StatusCode::UNAUTHORIZED, "/problems/token", "A token is needed", detail.clone())
+                .challenging(challenge)
         };
         let later = |wait, kind, title| {
             let problem = Self::new(StatusCode::TOO_MANY_REQUESTS, kind, title, detail.clone());
@@ -65,11 +66,13 @@ impl From<Refusal> for Problem {
         };
         match refusal {
             Refusal::NoToken => unauthorized(r#"Bearer realm="adaptarm""#),
-            Refusal::Malformed(_) | Refusal::Denied(Denied::Unknown | Denied::Revoked | Denied::Expired(_) | Denied::Scope(_)) => {
+            Refusal::Malformed(_)
+            | Refusal::Denied(Denied::Unknown | Denied::Revoked | Denied::Expired(_) | Denied::Scope(_)) => {
                 unauthorized(r#"Bearer realm="adaptarm", error="invalid_token""#)
             }
             Refusal::Scope(scope) => {
-                let challenge = format!(r#"Bearer realm="adaptarm", error="insufficient_scope", scope="{}""#, scope.name());
+                let challenge =
+                    format!(r#"Bearer realm="adaptarm", error="insufficient_scope", scope="{}""#, scope.name());
                 Self::new(StatusCode::FORBIDDEN, "/problems/scope", "The token does not allow this", detail)
                     .challenging(&challenge)
                     .with("scope", scope.name())

@@ -23,7 +23,8 @@ impl TryFrom<StoredToken> for Token {
     type Error = StoreError;
 
     fn try_from(stored: StoredToken) -> Result<Self, StoreError> {
-        let damaged = |what: &str| StoreError::Damaged(format!("a token, {:?}, whose {what} cannot be read", stored.id));
+        let damaged =
+            |what: &str| StoreError::Damaged(format!("a token, {:?}, whose {what} cannot be read", stored.id));
         Ok(Self {
             id: stored.id.parse().map_err(|_| damaged("identifier"))?,
             owner: Owner::stored(&stored.owner).map_err(|_| damaged("owner"))?,

@@ -19,7 +19,7 @@ use tokio::sync::watch;
 use tokio::time::{sleep, timeout};
 
 /// Time between two looks at what can be forgotten.
-const UPKEEP_INTERVAL: Duration = Duration::from_secs(3600);
+const UPKEEP_INTERVAL: Duration = Duration::from_hours(1);
 
 /// How long the end waits for calls to webhooks that are under way.
 pub(super) const CALLS_DRAIN: Duration = Duration::from_secs(2);
@@ -68,7 +68,12 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     });
     let (end, ending) = watch::channel(false);
     let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
-    let upkeep = tokio::spawn(keep_tidy(laboratory.store.clone(), laboratory.queue.clone(), laboratory.results.clone(), config.retention.clone()));
+    let upkeep = tokio::spawn(keep_tidy(
+        laboratory.store.clone(),
+        laboratory.queue.clone(),
+        laboratory.results.clone(),
+        config.retention.clone(),
+    ));
     let measuring = tokio::spawn(metrics::keep_small());
     if !bound.ip().is_loopback() && laboratory.store.tokens().await.map_err(Failure::chain)?.is_empty() {
         tracing::warn!(

@@ -154,6 +154,7 @@ impl Follower {
 }
 
 fn is_final(event: &Event) -> bool {
-    let state = || serde_json::from_str::<serde_json::Value>(&event.data).ok()?["state"].as_str().and_then(JobState::from_id);
+    let state =
+        || serde_json::from_str::<serde_json::Value>(&event.data).ok()?["state"].as_str().and_then(JobState::from_id);
     event.kind == EventKind::State && state().is_some_and(JobState::is_final)
 }

@@ -1,5 +1,7 @@
 //! Computing one scenario on a thread of the pool, able to pause between two slices.
 
+use crate::document::parse_scenario;
+use crate::metrics::FailureReason;
 use crate::results::{Checkpoint, Encoded};
 use adaptarm_core::scenario::Report;
 use adaptarm_core::simulation::Snapshot;
@@ -49,20 +51,28 @@ pub(super) enum Stretch {
     /// On request: how far it came, as bytes and as it is.
     Paused(Bytes, Box<Snapshot>),
     /// With an error that another try would meet again.
-    Failed(String),
+    Failed(FailureReason, String),
 }
 
 /// Computes scenario `n` of a job from where it was left, until its end or until it is told to pause.
 pub(super) fn compute(n: i64, document: &str, from: Option<Snapshot>, control: &Control) -> Stretch {
     match catch_unwind(AssertUnwindSafe(|| try_compute(n, document, from, control))) {
         Ok(Ok(stretch)) => stretch,
-        Ok(Err(reason)) => Stretch::Failed(format!("scenario {n}: {reason}")),
-        Err(panic) => Stretch::Failed(format!("scenario {n} made the simulation fail: {}", words(&*panic))),
+        Ok(Err((kind, reason))) => Stretch::Failed(kind, format!("scenario {n}: {reason}")),
+        Err(panic) => {
+            let reason = format!("scenario {n} made the simulation fail: {}", words(&*panic));
+            Stretch::Failed(FailureReason::Panicked, reason)
+        }
     }
 }
 
-fn try_compute(n: i64, document: &str, from: Option<Snapshot>, control: &Control) -> Result<Stretch, String> {
-    let scenario = crate::document::parse_scenario(document.as_bytes()).map_err(|error| error.to_string())?;
+fn try_compute(
+    n: i64,
+    document: &str,
+    from: Option<Snapshot>,
+    control: &Control,
+) -> Result<Stretch, (FailureReason, String)> {
+    let scenario = parse_scenario(document.as_bytes()).map_err(|error| (FailureReason::Document, error.to_string()))?;
     let mut simulation = match from.map(|snapshot| scenario.resume(snapshot)) {
         None => scenario.start(),
         Some(Ok(simulation)) => simulation,
@@ -76,13 +86,14 @@ fn try_compute(n: i64, document: &str, from: Option<Snapshot>, control: &Control
         control.steps.store(simulation.steps(), Ordering::Relaxed);
         if control.pause.load(Ordering::Relaxed) {
             let checkpoint = Checkpoint { n, snapshot: simulation.snapshot() };
-            let bytes = checkpoint.encode().map_err(|error| error.to_string())?;
+            let bytes = checkpoint.encode().map_err(|error| (FailureReason::Storage, error.to_string()))?;
             return Ok(Stretch::Paused(bytes, Box::new(checkpoint.snapshot)));
         }
     }
     let simulated_s = simulation.time_s();
     let run = scenario.finish(simulation);
-    let encoded = Encoded::new(&run.report, &run.recording).map_err(|error| error.to_string())?;
+    let encoded =
+        Encoded::new(&run.report, &run.recording).map_err(|error| (FailureReason::Storage, error.to_string()))?;
     Ok(Stretch::Finished(Box::new(Finished { report: run.report, encoded, simulated_s })))
 }
 

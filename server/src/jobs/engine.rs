@@ -5,7 +5,7 @@
 
 use super::queue::{Handler, TICKETS};
 use super::shard;
-use super::{Claim, JobStore, NewJob, Queue, StoreError, Submitted};
+use super::{Claim, JobStore, NewJob, Order, Queue, StoreError, Submitted, Tick};
 use crate::config::{Config, Limits};
 use crate::results::Results;
 use anyhow::Context;
@@ -23,6 +23,13 @@ const LOOK_INTERVAL: Duration = Duration::from_secs(1);
 
 /// How long to wait before listening to the queue again after it failed.
 const LISTEN_AGAIN: Duration = Duration::from_secs(1);
+
+/// Tickets taken from the queue at a time.
+const TICKETS_AT_A_TIME: usize = 64;
+
+/// How much the computing threads give way, on the system's scale from 0 to 19.
+#[cfg(target_os = "linux")]
+const NICE: i32 = 10;
 
 /// A job with this label ends its process when it begins: tests prove by it that nothing else suffers.
 const ABORT_LABEL: &str = "ADAPTARM_TEST_ABORT_ON_LABEL";
@@ -103,6 +110,7 @@ impl Engine {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads.max(1))
             .thread_name(|n| format!("simulation-{n}"))
+            .start_handler(|_| give_way())
             .build()
             .context("cannot start the simulation threads")?;
         let shared = Shared {
@@ -182,6 +190,14 @@ impl Engine {
     }
 }
 
+/// Makes the calling thread one that runs when no other needs the processor: answers come before computing.
+fn give_way() {
+    #[cfg(target_os = "linux")]
+    if let Err(error) = rustix::process::setpriority_process(None, NICE) {
+        tracing::debug!("computing threads keep their priority: {error}");
+    }
+}
+
 /// Turns tickets into wake-ups, for as long as this process works.
 async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()>) {
     let handler: Handler = Arc::new(move |_| {
@@ -191,8 +207,7 @@ async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()
     });
     while !shared.is_stopping() {
         let stop = shared.stopping.subscribe();
-        let threads = shared.settings.threads;
-        if let Err(error) = shared.queue.run(TICKETS, &shared.worker, threads, handler.clone(), stop).await {
+        if let Err(error) = shared.queue.run(TICKETS, &shared.worker, TICKETS_AT_A_TIME, handler.clone(), stop).await {
             tracing::warn!("{error}; listening again");
         }
         let mut stop = shared.stopping.subscribe();
@@ -204,16 +219,23 @@ async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()
 /// Works on one shard after another until none is left.
 async fn drain(shared: &Arc<Shared>) {
     while !shared.is_stopping() {
+        // Before the claim: one that waits for a suspect to end would run out of its lease.
+        let in_company = shared.company.read().await;
         let claim = match shared.store.claim(&shared.worker, shared.settings.lease).await {
             Ok(claim) => claim,
             Err(error) => {
+                drop(in_company);
                 tracing::warn!("cannot look for work: {error}");
                 sleep(LOOK_INTERVAL).await;
                 continue;
             }
         };
         match claim {
-            Some(claim) => perform(shared, &claim).await,
+            Some(claim) if claim.suspect => {
+                drop(in_company);
+                alone(shared, &claim).await;
+            }
+            Some(claim) => begin(shared, &claim).await,
             // Someone rang while this slot was busy.
             None if shared.rung.swap(false, Ordering::AcqRel) => {}
             None => return,
@@ -221,15 +243,23 @@ async fn drain(shared: &Arc<Shared>) {
     }
 }
 
-/// Works on a shard, in company or alone.
-async fn perform(shared: &Arc<Shared>, claim: &Claim) {
-    if claim.suspect {
-        shared.suspects_waiting.fetch_add(1, Ordering::Relaxed);
-        let _alone = shared.company.write().await;
-        shared.suspects_waiting.fetch_sub(1, Ordering::Relaxed);
-        begin(shared, claim).await;
-    } else {
-        let _in_company = shared.company.read().await;
+/// Works on a suspect, once everything else in this process has let go; until then its claim is kept alive.
+async fn alone(shared: &Arc<Shared>, claim: &Claim) {
+    shared.suspects_waiting.fetch_add(1, Ordering::Relaxed);
+    let settings = &shared.settings;
+    let mut waiting = std::pin::pin!(shared.company.write());
+    let alone = loop {
+        if let Ok(alone) = timeout(settings.heartbeat, &mut waiting).await {
+            break Some(alone);
+        }
+        match shared.store.tick(claim, Tick::waiting(claim), settings.lease, &settings.limits).await {
+            Ok(Order::Stop) => break None,
+            Ok(_) => {}
+            Err(error) => tracing::warn!(job = %claim.job, "cannot reach the store: {error}"),
+        }
+    };
+    shared.suspects_waiting.fetch_sub(1, Ordering::Relaxed);
+    if alone.is_some() {
         begin(shared, claim).await;
     }
 }

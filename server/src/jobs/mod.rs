@@ -12,6 +12,8 @@ mod shard;
 mod sql;
 mod store;
 mod study;
+#[cfg(test)]
+mod tests;
 mod upkeep;
 
 pub use engine::{Engine, EngineSettings};

@@ -4,7 +4,7 @@
 use super::compute::{Control, Finished, Stretch, compute};
 use super::engine::Shared;
 use super::{Claim, Order, StoreError, StoredResult, Tick};
-use crate::metrics;
+use crate::metrics::{self, FailureReason};
 use crate::results::ResultError;
 use adaptarm_core::simulation::Snapshot;
 use bytes::Bytes;
@@ -20,7 +20,7 @@ const CHECKPOINT_SHARE: u32 = 20;
 /// First and longest pause before something that failed is tried again, and how long to go on trying.
 const RETRY_FIRST: Duration = Duration::from_millis(100);
 const RETRY_LONGEST: Duration = Duration::from_secs(5);
-const RETRY_FOR: Duration = Duration::from_secs(120);
+const RETRY_FOR: Duration = Duration::from_mins(2);
 
 /// How work on a shard ended, where it was not simply done.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ enum Stopped {
     /// Others wait, or this process is about to end: the state is saved and the shard is given back.
     Yielded,
     /// Its job must fail.
-    Failed(String),
+    Failed(FailureReason, String),
     /// The store cannot be reached: others will find the shard when its lease has run out.
     Unreachable(StoreError),
 }
@@ -41,13 +41,16 @@ pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
     let mut worker = Worker { shared, claim, counted: claim.steps_done, since_tick: Instant::now() };
     match worker.work().await {
         Ok(()) => {}
-        Err(Stopped::Lost) => tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over"),
+        Err(Stopped::Lost) => {
+            tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over");
+        }
         Err(Stopped::Yielded) => {
             if let Err(error) = retry(|| shared.store.release(claim)).await {
                 tracing::warn!(job = %claim.job, shard = claim.shard, "cannot give the shard back: {error}");
             }
         }
-        Err(Stopped::Failed(reason)) => {
+        Err(Stopped::Failed(kind, reason)) => {
+            metrics::job_failed(kind);
             tracing::error!(job = %claim.job, shard = claim.shard, "{reason}");
             if let Err(error) = retry(|| shared.store.fail(claim, &reason)).await {
                 tracing::warn!(job = %claim.job, shard = claim.shard, "cannot note that the job failed: {error}");
@@ -109,7 +112,7 @@ impl Worker<'_> {
             let (stretch, order) = self.watch(receiver, &control, interval).await?;
             let (bytes, snapshot) = match stretch {
                 Stretch::Finished(finished) => return Ok(finished),
-                Stretch::Failed(reason) => return Err(Stopped::Failed(reason)),
+                Stretch::Failed(kind, reason) => return Err(Stopped::Failed(kind, reason)),
                 Stretch::Paused(bytes, snapshot) => (bytes, snapshot),
             };
             if order == Order::Stop {
@@ -136,7 +139,10 @@ impl Worker<'_> {
         let mut order = Order::Continue;
         loop {
             if let Ok(done) = timeout(self.shared.settings.heartbeat, &mut stretch).await {
-                let stretch = done.map_err(|_| Stopped::Failed("the computing thread ended without a word".to_owned()))?;
+                let silent = |_| {
+                    Stopped::Failed(FailureReason::Panicked, "the computing thread ended without a word".to_owned())
+                };
+                let stretch = done.map_err(silent)?;
                 return Ok((stretch, order));
             }
             let turn_over = began.elapsed() >= interval;
@@ -146,13 +152,20 @@ impl Worker<'_> {
                 // Computing goes on: the fence decides in the end whether it was worth it.
                 Err(error) => tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}"),
             }
-            if order == Order::Continue && (self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim)) {
+            // A suspect that has come this far is none any more, and need not keep everyone else waiting.
+            let acquitted = turn_over && self.claim.suspect;
+            if order == Order::Continue && (acquitted || self.must_let_go()) {
                 order = Order::Yield;
             }
             if order != Order::Continue || turn_over {
                 control.pause();
             }
         }
+    }
+
+    /// Whether this process is about to end, or a suspect waits to be alone in it.
+    fn must_let_go(&self) -> bool {
+        self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim)
     }
 
     async fn tick(&mut self, steps: u64, saved: bool, turn_over: bool) -> Result<Order, StoreError> {
@@ -187,7 +200,7 @@ impl Worker<'_> {
         while let Err(error) = self.shared.results.put(&report, &encoded).await {
             let passing = matches!(error, ResultError::Unavailable(_)) && Instant::now() < deadline;
             if !passing {
-                return Err(Stopped::Failed(format!("scenario {n}: {error}")));
+                return Err(Stopped::Failed(FailureReason::Storage, format!("scenario {n}: {error}")));
             }
             tracing::warn!(job = %self.claim.job, "scenario {n}: {error}; trying again");
             sleep(pause).await;
@@ -204,8 +217,12 @@ impl Worker<'_> {
         self.counted = 0;
         match delivered.map_err(Stopped::Unreachable)? {
             super::Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
-            _ if self.shared.is_stopping() || self.shared.is_wanted_alone(self.claim) => {
-                if self.claim.scenarios.last().is_some_and(|(last, _)| *last == n) { Ok(()) } else { Err(Stopped::Yielded) }
+            _ if self.claim.suspect || self.must_let_go() => {
+                if self.claim.scenarios.last().is_some_and(|(last, _)| *last == n) {
+                    Ok(())
+                } else {
+                    Err(Stopped::Yielded)
+                }
             }
             _ => Ok(()),
         }

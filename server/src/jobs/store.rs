@@ -164,6 +164,14 @@ pub struct Tick {
     pub turn_over: bool,
 }
 
+impl Tick {
+    /// A sign of life of someone who has not begun yet.
+    pub fn waiting(claim: &Claim) -> Self {
+        let steps = claim.steps_done;
+        Self { steps_done: steps, steps_before: steps, computed: Duration::ZERO, saved: false, turn_over: false }
+    }
+}
+
 /// A scenario's result that has just been put into the result store.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredResult {

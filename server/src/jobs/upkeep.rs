@@ -26,7 +26,8 @@ pub async fn collect_garbage(
     results: &Results,
     retention: &Retention,
 ) -> anyhow::Result<Forgotten> {
-    let mut forgotten = Forgotten { jobs: store.forget_jobs(days_ago(retention.finished_jobs_days)).await?, ..Forgotten::default() };
+    let mut forgotten =
+        Forgotten { jobs: store.forget_jobs(days_ago(retention.finished_jobs_days)).await?, ..Forgotten::default() };
     loop {
         let unused = store.unused_results(days_ago(retention.results_days), BATCH).await?;
         for (hash, core_version) in &unused {

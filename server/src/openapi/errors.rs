@@ -63,7 +63,9 @@ pub(super) fn response(status: u16) -> Value {
         } },
     });
     let header = match status {
-        401 | 403 => Some(("WWW-Authenticate", json!({ "type": "string" }), "What kind of token is needed, if that is missing.")),
+        401 | 403 => {
+            Some(("WWW-Authenticate", json!({ "type": "string" }), "What kind of token is needed, if that is missing."))
+        }
         429 | 503 => Some(("Retry-After", json!({ "type": "integer", "minimum": 1 }), "When to try again, s.")),
         416 => Some(("Content-Range", json!({ "type": "string" }), "How long the file is.")),
         _ => None,
@@ -96,25 +98,65 @@ fn about(status: u16) -> &'static str {
 
 fn example(status: u16) -> Value {
     let (kind, title, detail, more) = match status {
-        400 => ("malformed-json", "Not JSON", "not JSON: EOF while parsing an object at line 1 column 1", json!({ "pointer": "", "line": 1, "column": 1 })),
+        400 => (
+            "malformed-json",
+            "Not JSON",
+            "not JSON: EOF while parsing an object at line 1 column 1",
+            json!({ "pointer": "", "line": 1, "column": 1 }),
+        ),
         401 => ("token", "A token is needed", "the token is not known", json!({})),
-        403 => ("scope", "The token does not allow this", "the token lacks the scope jobs:write, which this request needs", json!({ "scope": "jobs:write" })),
+        403 => (
+            "scope",
+            "The token does not allow this",
+            "the token lacks the scope jobs:write, which this request needs",
+            json!({ "scope": "jobs:write" }),
+        ),
         404 => ("http", "Not Found", "there is no job \"01a1fb9b-43fb-71ef-9143-3df21c3dc86e\"", json!({})),
         408 => ("http", "Request Timeout", "the request did not arrive or was not answered in time", json!({})),
-        409 => ("not-ready", "No result", "the job is running: its result comes when it has ended", json!({ "state": "running" })),
-        410 => ("gone", "No longer kept", "the samples are not kept any more; the same scenario gives the same samples again", json!({})),
+        409 => (
+            "not-ready",
+            "No result",
+            "the job is running: its result comes when it has ended",
+            json!({ "state": "running" }),
+        ),
+        410 => (
+            "gone",
+            "No longer kept",
+            "the samples are not kept any more; the same scenario gives the same samples again",
+            json!({}),
+        ),
         413 => ("too-large", "Body too large", "a body may have 8388608 bytes", json!({ "max_bytes": 8_388_608 })),
         415 => ("media-type", "Not declared as JSON", "send the header `Content-Type: application/json`", json!({})),
-        416 => ("http", "Range Not Satisfiable", "the file has 34812 bytes, and none of them is in the range that is asked for", json!({})),
-        421 => ("wrong-host", "Not a name of this server", "this server answers only as localhost, 127.0.0.1 or [::1]; check the address or the Host header", json!({})),
+        416 => (
+            "http",
+            "Range Not Satisfiable",
+            "the file has 34812 bytes, and none of them is in the range that is asked for",
+            json!({}),
+        ),
+        421 => (
+            "wrong-host",
+            "Not a name of this server",
+            "this server answers only as localhost, 127.0.0.1 or [::1]; check the address or the Host header",
+            json!({}),
+        ),
         422 => (
             "out-of-range",
             "A number is outside its allowed range",
             "spec.scenarios[0].integration.step_s: -1 is outside the allowed range 0.000001 to 0.1 s",
             json!({ "pointer": "/spec/scenarios/0/integration/step_s", "value": -1.0, "min": 1e-6, "max": 0.1, "unit": "s" }),
         ),
-        429 => ("rate-limit", "Too many requests", "more than 600 requests per minute with this token; try again in 1 s", json!({ "per_minute": 600 })),
-        503 => ("unavailable", "Not available", "the database cannot be used at the moment; try again in a while", json!({})),
+        429 => (
+            "rate-limit",
+            "Too many requests",
+            "more than 600 requests per minute with this token; try again in 1 s",
+            json!({ "per_minute": 600 }),
+        ),
+        503 => (
+            "unavailable",
+            "Not available",
+            "the database cannot be used at the moment; try again in a while",
+            json!({}),
+        ),
         _ => ("http", "Internal Server Error", "the server failed; its log names this request", json!({})),
     };
     let mut problem = json!({

@@ -59,7 +59,9 @@ fn build() -> Value {
 fn complete(operation: &mut Value, safe: bool) {
     let name = operation["operationId"].as_str().unwrap_or_default().to_owned();
     for (status, response) in operation["responses"].as_object_mut().into_iter().flatten() {
-        let Some(example) = status.parse().ok().and_then(|status| examples::answer(&name, status).ok()?) else { continue };
+        let Some(example) = status.parse().ok().and_then(|status| examples::answer(&name, status).ok()?) else {
+            continue;
+        };
         // The first form of an answer is the one that comes without asking for another.
         let mut forms = response["content"].as_object_mut().into_iter().flatten();
         let form = forms.find(|(media_type, _)| media_type.starts_with("text/") || media_type.ends_with("json"));
@@ -93,12 +95,11 @@ fn refine(parameter: &mut Value) {
     match parameter["name"].as_str() {
         Some("format") => parameter["schema"]["enum"] = json!(Format::ALL.map(Format::id)),
         Some("columns") => {
-            let columns = ROBOTS.iter().flat_map(|robot| {
-                Columns { joints: robot.joint_count(), parameters: robot.parameter_count() }.names()
-            });
+            let columns = ROBOTS
+                .iter()
+                .flat_map(|robot| Columns { joints: robot.joint_count(), parameters: robot.parameter_count() }.names());
             let columns: Vec<_> = columns.collect();
-            parameter["schema"] =
-                json!({ "type": "array", "items": { "type": "string", "enum": columns }, "uniqueItems": true, "minItems": 1 });
+            parameter["schema"] = json!({ "type": "array", "items": { "type": "string", "enum": columns }, "uniqueItems": true, "minItems": 1 });
             (parameter["style"], parameter["explode"]) = (json!("form"), json!(false));
             parameter["example"] = json!(["t_s", "e_deg_1"]);
         }

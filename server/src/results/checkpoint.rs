@@ -20,7 +20,8 @@ pub struct Checkpoint {
 impl Checkpoint {
     /// As bytes, with a hash in front. Takes milliseconds of computing: not for an async task.
     pub fn encode(&self) -> Result<Bytes, ResultError> {
-        let failed = |error: &dyn std::fmt::Display| ResultError::Damaged(format!("a checkpoint cannot be written: {error}"));
+        let failed =
+            |error: &dyn std::fmt::Display| ResultError::Damaged(format!("a checkpoint cannot be written: {error}"));
         let plain = rmp_serde::to_vec_named(self).map_err(|error| failed(&error))?;
         let packed = zstd::encode_all(&*plain, COMPRESSION_LEVEL).map_err(|error| failed(&error))?;
         let mut bytes = blake3::hash(&packed).as_bytes().to_vec();
@@ -30,7 +31,8 @@ impl Checkpoint {
 
     /// From what [`Self::encode`] gave.
     pub fn decode(bytes: &[u8]) -> Result<Self, ResultError> {
-        let damaged = |what: &dyn std::fmt::Display| ResultError::Damaged(format!("a checkpoint is not what was stored: {what}"));
+        let damaged =
+            |what: &dyn std::fmt::Display| ResultError::Damaged(format!("a checkpoint is not what was stored: {what}"));
         let (hash, packed) = bytes.split_at_checked(blake3::OUT_LEN).ok_or_else(|| damaged(&"it is too short"))?;
         if blake3::hash(packed).as_bytes() != hash {
             return Err(damaged(&"its hash differs"));

@@ -96,7 +96,8 @@ fn write(job: Uuid, told: &Told) -> Event {
         // Two numbers always become JSON.
         Told::Progress(progress) => Event::default().event("progress").data(json!(progress).to_string()),
         Told::Deleted => {
-            let data = json!({ "id": job, "state": "canceled", "reason": "the job was deleted", "at": Timestamp::now() });
+            let data =
+                json!({ "id": job, "state": "canceled", "reason": "the job was deleted", "at": Timestamp::now() });
             Event::default().event("state").data(data.to_string())
         }
     }
@@ -113,7 +114,8 @@ fn read_id(text: &str) -> Result<Option<i64>, Problem> {
     if text.is_empty() {
         return Ok(None);
     }
-    let number = text.parse().ok().filter(|number: &i64| *number >= 0 && text.bytes().all(|byte| byte.is_ascii_digit()));
+    let number =
+        text.parse().ok().filter(|number: &i64| *number >= 0 && text.bytes().all(|byte| byte.is_ascii_digit()));
     number.map(Some).ok_or_else(|| wrong_id(text, "not the id of an event: a whole number from 0 up"))
 }
 

@@ -32,7 +32,7 @@ pub(super) async fn ready(State(state): State<AppState>) -> Result<Json<Value>, 
         return Err(draining());
     }
     let [queued, running] = state.store.unfinished().await.map_err(database)?;
-    state.results.check().await.map_err(stored)?;
+    state.results.check().await.map_err(|error| stored(&error))?;
     Ok(Json(json!({ "status": "ready", "unfinished_jobs": queued + running })))
 }
 

@@ -32,19 +32,21 @@ pub(crate) fn database(error: StoreError) -> Problem {
         }
         StoreError::KeyReused { key } => {
             let title = "The key belongs to another request";
-            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "/problems/idempotency-key", title, detail).with("value", key)
+            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "/problems/idempotency-key", title, detail)
+                .with("value", key)
         }
         StoreError::Database(_) | StoreError::Queue(_) | StoreError::Migration(_) | StoreError::Damaged(_) => {
             tracing::error!("{error}");
             let detail = "the database cannot be used at the moment; try again in a while";
-            let problem = Problem::new(StatusCode::SERVICE_UNAVAILABLE, "/problems/unavailable", "Not available", detail);
+            let problem =
+                Problem::new(StatusCode::SERVICE_UNAVAILABLE, "/problems/unavailable", "Not available", detail);
             Problem { retry_after_s: Some(RETRY_AFTER_S), ..problem }
         }
     }
 }
 
 /// What the result store says.
-pub(super) fn stored(error: ResultError) -> Problem {
+pub(super) fn stored(error: &ResultError) -> Problem {
     match error {
         ResultError::Missing(_) | ResultError::Damaged(_) => {
             tracing::error!("{error}");
@@ -54,7 +56,8 @@ pub(super) fn stored(error: ResultError) -> Problem {
         ResultError::NoSpace(_) | ResultError::Unavailable(_) => {
             tracing::error!("{error}");
             let detail = "the stored results cannot be read at the moment; try again in a while";
-            let problem = Problem::new(StatusCode::SERVICE_UNAVAILABLE, "/problems/unavailable", "Not available", detail);
+            let problem =
+                Problem::new(StatusCode::SERVICE_UNAVAILABLE, "/problems/unavailable", "Not available", detail);
             Problem { retry_after_s: Some(RETRY_AFTER_S), ..problem }
         }
     }

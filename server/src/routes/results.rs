@@ -40,10 +40,8 @@ pub(super) async fn result(
         return Err(not_ready(&job, "its result"));
     }
     let complete = job.state == JobState::Succeeded;
-    let head = format!(
-        r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#,
-        job.state.id()
-    );
+    let head =
+        format!(r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#, job.state.id());
     // Piece by piece: ten thousand reports are large.
     let pieces = stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
         if from > job.scenarios {
@@ -182,6 +180,7 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
 
 /// The samples of one scenario that has a report.
 async fn samples(state: &AppState, row: &ScenarioRow) -> Result<Arc<Recording>, Problem> {
-    let (version, checksum) = (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
+    let (version, checksum) =
+        (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
     state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(stored)
 }

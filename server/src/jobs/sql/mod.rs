@@ -6,6 +6,8 @@
 mod postgres;
 mod rows;
 mod sqlite;
+#[cfg(test)]
+mod tests;
 
 use super::{JobStore, Queue, StoreError};
 use crate::config::DatabaseUrl;

@@ -2,8 +2,8 @@
 
 use crate::jobs::StoreError;
 use apalis_core::task::Task;
-use apalis_postgres::queries::push_tasks;
 use apalis_postgres::PostgresStorage;
+use apalis_postgres::queries::push_tasks;
 use serde_json::Value;
 use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
 use std::time::Duration;
@@ -24,13 +24,18 @@ const CLAIM_LOCK: i64 = 0x0061_6461_7074_6172;
 /// Held while the tables are made: several processes may start at once.
 const MIGRATION_LOCK: i64 = CLAIM_LOCK + 1;
 
+/// What every session keeps to. A worker that is frozen or cut off in the middle of a transaction would hold its locks for
+/// ever; after this time, ms, the database takes them back, and the worker finds its connection gone.
+const SESSION: [(&str, &str); 3] =
+    [("idle_in_transaction_session_timeout", "5000"), ("lock_timeout", "10000"), ("tcp_keepalives_idle", "30")];
+
 /// Connects.
 pub(super) async fn open(url: &str) -> Result<SqlStore, StoreError> {
     let options: PgConnectOptions = url.parse()?;
     let pool = PgPoolOptions::new()
         .max_connections(CONNECTIONS)
         .acquire_timeout(Duration::from_secs(10))
-        .connect_with(options.application_name("adaptarm"))
+        .connect_with(options.application_name("adaptarm").options(SESSION))
         .await?;
     let mut held = pool.acquire().await?;
     sqlx::query("SELECT pg_advisory_lock($1)").bind(MIGRATION_LOCK).execute(&mut *held).await?;
@@ -46,6 +51,9 @@ pub(super) async fn open(url: &str) -> Result<SqlStore, StoreError> {
     drop(held);
     Ok(SqlStore::new(pool.clone(), pool))
 }
+
+/// Whether writers take turns, so that joining what they write is worth it.
+pub(super) const ONE_WRITER: bool = false;
 
 /// Begins a transaction.
 pub(super) async fn begin(pool: &Pool) -> Result<sqlx::Transaction<'static, Db>, sqlx::Error> {
@@ -69,7 +77,11 @@ pub(super) async fn one_at_a_time(connection: &mut Connection) -> Result<(), sql
 pub(super) const SWEEP: &str = "DELETE FROM apalis.jobs WHERE status IN ('Done', 'Killed', 'Failed')";
 
 /// Puts tasks into the queue, as part of the connection's transaction.
-pub(super) async fn push(connection: &mut Connection, queue: &str, tasks: Vec<Task<Vec<u8>>>) -> Result<(), StoreError> {
+pub(super) async fn push(
+    connection: &mut Connection,
+    queue: &str,
+    tasks: Vec<Task<Vec<u8>>>,
+) -> Result<(), StoreError> {
     push_tasks(connection, queue, tasks).await.map_err(|error| StoreError::Queue(error.to_string()))
 }
 

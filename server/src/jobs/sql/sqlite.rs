@@ -2,8 +2,8 @@
 
 use crate::jobs::StoreError;
 use apalis_core::task::Task;
-use apalis_sqlite::queries::push_tasks;
 use apalis_sqlite::SqliteStorage;
+use apalis_sqlite::queries::push_tasks;
 use serde_json::Value;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
 use std::path::Path;
@@ -40,19 +40,20 @@ pub(super) async fn open(path: &Path) -> Result<SqlStore, StoreError> {
     Ok(SqlStore::new(write, read))
 }
 
+/// Whether writers take turns, so that joining what they write is worth it.
+pub(super) const ONE_WRITER: bool = true;
+
 /// Begins a transaction that will write. Beginning as a reader and writing later could fail halfway.
 pub(super) async fn begin(pool: &Pool) -> Result<sqlx::Transaction<'static, Db>, sqlx::Error> {
     pool.begin_with("BEGIN IMMEDIATE").await
 }
 
 /// The time that leases are measured in, µs since 1970.
-#[expect(clippy::unused_async, reason = "the other database must be asked")]
 pub(super) async fn now(_: &mut Connection) -> Result<i64, sqlx::Error> {
     Ok(jiff::Timestamp::now().as_microsecond())
 }
 
 /// Keeps two workers from choosing the same shard; here every writing transaction does.
-#[expect(clippy::unused_async, reason = "the other database must be asked")]
 pub(super) async fn one_at_a_time(_: &mut Connection) -> Result<(), sqlx::Error> {
     Ok(())
 }
@@ -61,7 +62,11 @@ pub(super) async fn one_at_a_time(_: &mut Connection) -> Result<(), sqlx::Error>
 pub(super) const SWEEP: &str = "DELETE FROM Jobs WHERE status IN ('Done', 'Killed', 'Failed')";
 
 /// Puts tasks into the queue, as part of the connection's transaction.
-pub(super) async fn push(connection: &mut Connection, queue: &str, tasks: Vec<Task<Vec<u8>>>) -> Result<(), StoreError> {
+pub(super) async fn push(
+    connection: &mut Connection,
+    queue: &str,
+    tasks: Vec<Task<Vec<u8>>>,
+) -> Result<(), StoreError> {
     push_tasks(connection, queue, &tasks).await.map_err(|error| StoreError::Queue(error.to_string()))
 }
 

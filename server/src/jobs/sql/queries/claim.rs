@@ -4,6 +4,7 @@ use super::change::{State, tell};
 use super::rows::{self, ShardRow};
 use super::{Connection, Pool, begin, now, one_at_a_time};
 use crate::jobs::{Claim, JobState, StoreError};
+use crate::metrics::{self, FailureReason};
 use sqlx::Row;
 use std::time::Duration;
 use uuid::Uuid;
@@ -68,7 +69,7 @@ async fn claim_of(
     let id = rows::id(&job)?;
     // First the job's row: whoever cancels it at this moment is waited for.
     let row = sqlx::query(
-        "UPDATE job SET attempts = attempts WHERE id = $1 AND state IN ('queued', 'running') RETURNING state, label, priority",
+        "UPDATE job SET attempts = attempts WHERE id = $1 AND state IN ('queued', 'running') RETURNING state, label, priority, attempts",
     )
     .bind(&job)
     .fetch_optional(&mut *connection)
@@ -86,11 +87,13 @@ async fn claim_of(
     .fetch_optional(&mut *connection)
     .await?;
     let Some(shard) = shard else { return Ok(None) };
-    sqlx::query("UPDATE job SET attempts = $2 WHERE id = $1 AND attempts < $2")
-        .bind(&job)
-        .bind(shard.attempt)
-        .execute(&mut *connection)
-        .await?;
+    if shard.attempt > row.try_get::<i64, _>("attempts")? {
+        sqlx::query("UPDATE job SET attempts = $2 WHERE id = $1")
+            .bind(&job)
+            .bind(shard.attempt)
+            .execute(&mut *connection)
+            .await?;
+    }
     sqlx::query(
         "INSERT INTO turn (owner, served_at) VALUES ($1, $2) \
          ON CONFLICT (owner) DO UPDATE SET served_at = excluded.served_at",
@@ -161,6 +164,7 @@ async fn give_back(connection: &mut Connection, job: Uuid, number: i64, at: i64)
              the process fail"
         );
         tracing::error!(%job, "{reason}");
+        metrics::job_failed(FailureReason::OutOfAttempts);
         tell(connection, job, State::failed(&reason), at).await?;
     }
     Ok(())

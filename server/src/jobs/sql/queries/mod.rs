@@ -9,7 +9,7 @@ mod submit;
 mod tokens;
 mod work;
 
-use super::{Connection, Db, Pool, QueueConfig, SWEEP, begin, now, one_at_a_time, push, storage};
+use super::{Connection, Db, ONE_WRITER, Pool, QueueConfig, SWEEP, begin, now, one_at_a_time, push, storage};
 use crate::config::Limits;
 use crate::jobs::sql::rows;
 use crate::jobs::{
@@ -20,7 +20,8 @@ use async_trait::async_trait;
 use jiff::Timestamp;
 use std::sync::Arc;
 use std::time::Duration;
-use tokio::sync::watch;
+use submit::{TOGETHER, Waiting};
+use tokio::sync::{mpsc, oneshot, watch};
 use uuid::Uuid;
 
 /// Jobs in the tables of one database.
@@ -30,11 +31,19 @@ pub(in crate::jobs::sql) struct SqlStore {
     read: Pool,
     /// Counts up when this process has pushed something into the queue.
     pushed: Arc<watch::Sender<u64>>,
+    /// Where jobs wait to be accepted together, where there is one writer.
+    submissions: Option<mpsc::Sender<Waiting>>,
 }
 
 impl SqlStore {
+    /// Within a runtime, which goes on accepting jobs for as long as the store lives.
     pub(in crate::jobs::sql) fn new(write: Pool, read: Pool) -> Self {
-        Self { write, read, pushed: Arc::new(watch::Sender::new(0)) }
+        let submissions = ONE_WRITER.then(|| {
+            let (submissions, waiting) = mpsc::channel(TOGETHER);
+            tokio::spawn(submit::accept_together(write.clone(), waiting));
+            submissions
+        });
+        Self { write, read, pushed: Arc::new(watch::Sender::new(0)), submissions }
     }
 
     fn ring(&self) {
@@ -45,9 +54,18 @@ impl SqlStore {
 #[async_trait]
 impl JobStore for SqlStore {
     async fn submit(&self, job: NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
-        let submitted = submit::submit(&self.write, &job, limits).await?;
+        let submitted = match &self.submissions {
+            None => submit::submit(&self.write, &job, limits).await,
+            Some(submissions) => {
+                let (answer, answered) = oneshot::channel();
+                let waiting = Waiting { job, limits: limits.clone(), answer };
+                let gone = || StoreError::Queue("nobody accepts jobs any more".to_owned());
+                submissions.send(waiting).await.map_err(|_| gone())?;
+                answered.await.map_err(|_| gone())?
+            }
+        };
         self.ring();
-        Ok(submitted)
+        submitted
     }
 
     async fn job(&self, owner: &str, id: Uuid) -> Result<Option<Job>, StoreError> {

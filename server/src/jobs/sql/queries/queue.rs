@@ -67,8 +67,11 @@ fn hand_out(
         .queue(queue)
         .batch_size(at_a_time)
         .heartbeat_interval(HEARTBEAT)
-        .missed_heartbeats(MISSED_HEARTBEATS);
-    let bell = futures_util::stream::unfold(bell, |mut bell| async move { bell.changed().await.ok().map(|()| ((), bell)) });
+        .missed_heartbeats(MISSED_HEARTBEATS)
+        .lock_tasks(false)
+        .persist_results(false);
+    let bell =
+        futures_util::stream::unfold(bell, |mut bell| async move { bell.changed().await.ok().map(|()| ((), bell)) });
     let strategy = Strategy::new().stream(Box::pin(bell)).interval(POLL_INTERVAL);
     let worker = WorkerBuilder::new(worker)
         .backend(PollWith::new(storage(pool, config), strategy))

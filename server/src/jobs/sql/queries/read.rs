@@ -19,8 +19,7 @@ pub(super) async fn job(pool: &Pool, owner: &str, id: Uuid) -> Result<Option<Job
 
 /// A user's jobs, newest first.
 pub(super) async fn jobs(pool: &Pool, owner: &str, filter: &Filter, limit: i64) -> Result<Vec<Job>, StoreError> {
-    let mut query: QueryBuilder<Db> =
-        QueryBuilder::new(concat!("SELECT ", job_columns!(), " FROM job WHERE owner = "));
+    let mut query: QueryBuilder<Db> = QueryBuilder::new(concat!("SELECT ", job_columns!(), " FROM job WHERE owner = "));
     query.push_bind(owner);
     if let Some(state) = filter.state {
         query.push(" AND state = ").push_bind(JobState::id(state));

@@ -1,6 +1,6 @@
 //! Accepting a job: idempotency, the user's limits, what is known already, the plan; all in one transaction.
 
-use super::change::{State, tell, wake};
+use super::change::{State, Teller, announce, record, tell, wake};
 use super::rows::{JobRow, job_columns};
 use super::{Connection, Db, Pool, begin, now};
 use crate::config::Limits;
@@ -10,16 +10,62 @@ use crate::jobs::{Job, JobState, NewJob, StoreError, Submitted};
 use adaptarm_core::scenario::Report;
 use sqlx::{FromRow, QueryBuilder, Row};
 use std::collections::BTreeMap;
+use tokio::sync::{mpsc, oneshot};
 use uuid::Uuid;
 
 /// Rows written or hashes asked for in one statement; databases bound the number of parameters.
 const BATCH: usize = 500;
 
-/// Accepts a job.
+/// Most jobs accepted in one transaction.
+pub(super) const TOGETHER: usize = 64;
+
+/// A job that waits to be accepted together with others.
+pub(super) struct Waiting {
+    /// The job.
+    pub(super) job: NewJob,
+    /// What it must keep to.
+    pub(super) limits: Limits,
+    /// Where its sender waits.
+    pub(super) answer: oneshot::Sender<Result<Submitted, StoreError>>,
+}
+
+/// Accepts whatever waits, many jobs in one transaction: with one writer, beginning and committing is most of the work.
+pub(super) async fn accept_together(pool: Pool, mut waiting: mpsc::Receiver<Waiting>) {
+    let mut batch = Vec::new();
+    while waiting.recv_many(&mut batch, TOGETHER).await > 0 {
+        let accepted = together(&pool, &batch).await;
+        let answers = accepted.unwrap_or_else(|error| {
+            // All of them or none: each is told the same.
+            let why = error.to_string();
+            batch.iter().map(|_| Err(StoreError::Queue(why.clone()))).collect()
+        });
+        for (Waiting { answer, .. }, accepted) in batch.drain(..).zip(answers) {
+            // Whoever went away meanwhile finds the job by its key.
+            let _ = answer.send(accepted);
+        }
+    }
+}
+
+/// Accepts these jobs in one transaction. What refuses one of them leaves no trace of it, and the others go on.
+async fn together(pool: &Pool, batch: &[Waiting]) -> Result<Vec<Result<Submitted, StoreError>>, StoreError> {
+    let mut transaction = begin(pool).await?;
+    let mut accepted = Vec::with_capacity(batch.len());
+    for Waiting { job, limits, .. } in batch {
+        match attempt(&mut transaction, job, limits).await {
+            Ok(submitted) => accepted.push(Ok(submitted)),
+            Err(refusal @ (StoreError::Quota { .. } | StoreError::KeyReused { .. })) => accepted.push(Err(refusal)),
+            Err(error) => return Err(error),
+        }
+    }
+    transaction.commit().await?;
+    Ok(accepted)
+}
+
+/// Accepts a job in a transaction of its own.
 pub(super) async fn submit(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
-    match attempt(pool, job, limits).await {
+    match alone(pool, job, limits).await {
         // Another request with the same key came first, a moment ago: now its job can be seen.
-        Err(StoreError::Database(error)) if is_doubled(&error) => attempt(pool, job, limits).await,
+        Err(StoreError::Database(error)) if is_doubled(&error) => alone(pool, job, limits).await,
         done => done,
     }
 }
@@ -28,9 +74,15 @@ fn is_doubled(error: &sqlx::Error) -> bool {
     error.as_database_error().is_some_and(sqlx::error::DatabaseError::is_unique_violation)
 }
 
-async fn attempt(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
+async fn alone(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
     let mut transaction = begin(pool).await?;
-    let connection = &mut *transaction;
+    let submitted = attempt(&mut transaction, job, limits).await?;
+    transaction.commit().await?;
+    Ok(submitted)
+}
+
+/// Accepts a job as part of a transaction. Every refusal comes before the first thing written.
+async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
     if let Some(job) = repeated(connection, job).await? {
         return Ok(Submitted { job, repeated: true });
     }
@@ -42,25 +94,22 @@ async fn attempt(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted
     );
     let id = Uuid::now_v7();
     let at = now(connection).await?;
-    insert_job(connection, id, job, &known, at).await?;
+    let (accepted, teller) = insert_job(connection, id, job, &known, at).await?;
     insert_scenarios(connection, id, job, &known).await?;
     insert_shards(connection, id, job, &shards).await?;
-    tell(connection, id, State::new(JobState::Queued), at).await?;
-    for (n, scenario) in job.scenarios.iter().enumerate() {
-        if let Some(report) = known.get(scenario.hash.as_str()) {
-            super::change::record(connection, id, EventKind::Summary, &summary(n as i64, report)).await?;
-        }
+    announce(connection, id, teller, State::new(JobState::Queued), at).await?;
+    if !known.is_empty() {
+        insert_summaries(connection, id, job, &known).await?;
     }
-    if shards.is_empty() {
-        tell(connection, id, State::new(JobState::Succeeded), at).await?;
-    } else {
+    if !shards.is_empty() {
         wake(connection, shards.len()).await?;
+        return Ok(Submitted { job: accepted, repeated: false });
     }
+    tell(connection, id, State::new(JobState::Succeeded), at).await?;
     let row: JobRow = sqlx::query_as(concat!("SELECT ", job_columns!(), " FROM job WHERE id = $1"))
         .bind(id.to_string())
-        .fetch_one(&mut *connection)
+        .fetch_one(connection)
         .await?;
-    transaction.commit().await?;
     Ok(Submitted { job: Job::try_from(row)?, repeated: false })
 }
 
@@ -84,17 +133,14 @@ async fn repeated(connection: &mut Connection, job: &NewJob) -> Result<Option<Jo
 }
 
 async fn check_quotas(connection: &mut Connection, owner: &str, steps: u64, limits: &Limits) -> Result<(), StoreError> {
-    let (jobs, waiting): (i64, i64) = sqlx::query_as(
-        "SELECT COUNT(*), CAST(COALESCE(SUM(steps_total - steps_done), 0) AS BIGINT) FROM job \
-         WHERE owner = $1 AND state IN ('queued', 'running')",
+    let (jobs, waiting, bytes): (i64, i64, i64) = sqlx::query_as(
+        "SELECT COUNT(*), CAST(COALESCE(SUM(steps_total - steps_done), 0) AS BIGINT), \
+         (SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM job WHERE owner = $1) \
+         FROM job WHERE owner = $1 AND state IN ('queued', 'running')",
     )
     .bind(owner)
-    .fetch_one(&mut *connection)
+    .fetch_one(connection)
     .await?;
-    let bytes: i64 = sqlx::query_scalar("SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM job WHERE owner = $1")
-        .bind(owner)
-        .fetch_one(connection)
-        .await?;
     let quotas = [
         ("unfinished jobs", jobs, 1, limits.unfinished_jobs_per_user),
         ("integration steps waiting or under way", waiting, steps, limits.queued_steps_per_user),
@@ -142,7 +188,7 @@ async fn insert_job(
     job: &NewJob,
     known: &BTreeMap<&str, Report>,
     at: i64,
-) -> Result<(), StoreError> {
+) -> Result<(Job, Teller), StoreError> {
     let done = |scenario: &&crate::jobs::NewScenario| known.contains_key(scenario.hash.as_str());
     let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
     let (count_done, steps_done) =
@@ -150,11 +196,13 @@ async fn insert_job(
     // A webhook is two strings.
     let webhook = job.webhook.as_ref().map(|webhook| serde_json::to_string(webhook).unwrap_or_default());
     let (key, hash) = job.idempotency.clone().unzip();
-    sqlx::query(
+    let row = sqlx::query(concat!(
         "INSERT INTO job (id, owner, kind, label, priority, state, cached, created_at, scenarios, scenarios_done, \
-         steps_total, steps_done, bytes, webhook, idempotency_key, request_hash) \
-         VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, $8, $9, $10, $11, 0, $12, $13, $14)",
-    )
+         steps_total, steps_done, bytes, webhook, idempotency_key, request_hash, event_seq) \
+         VALUES ($1, $2, $3, $4, $5, 'queued', $6, $7, $8, $9, $10, $11, 0, $12, $13, $14, 1) \
+         RETURNING event_seq, webhook, ",
+        job_columns!()
+    ))
     .bind(id.to_string())
     .bind(&job.owner)
     .bind(job.kind.id())
@@ -169,8 +217,30 @@ async fn insert_job(
     .bind(webhook)
     .bind(key)
     .bind(hash)
-    .execute(connection)
+    .fetch_one(connection)
     .await?;
+    Ok((Job::try_from(JobRow::from_row(&row)?)?, Teller::from_row(&row)?))
+}
+
+/// Tells of what was known already, behind the event that the job was accepted.
+async fn insert_summaries(
+    connection: &mut Connection,
+    id: Uuid,
+    job: &NewJob,
+    known: &BTreeMap<&str, Report>,
+) -> Result<(), StoreError> {
+    let mut seq = 1;
+    for (n, scenario) in job.scenarios.iter().enumerate() {
+        if let Some(report) = known.get(scenario.hash.as_str()) {
+            seq += 1;
+            record(connection, id, seq, EventKind::Summary, &summary(n as i64, report)).await?;
+        }
+    }
+    sqlx::query("UPDATE job SET event_seq = $2 WHERE id = $1")
+        .bind(id.to_string())
+        .bind(seq)
+        .execute(connection)
+        .await?;
     Ok(())
 }
 

@@ -25,7 +25,8 @@ pub(super) async fn add(pool: &Pool, token: &StoredToken) -> Result<(), StoreErr
 
 /// The token with this public part.
 pub(super) async fn find(pool: &Pool, id: &str) -> Result<Option<StoredToken>, StoreError> {
-    let row: Option<TokenRow> = sqlx::query_as("SELECT * FROM token WHERE id = $1").bind(id).fetch_optional(pool).await?;
+    let row: Option<TokenRow> =
+        sqlx::query_as("SELECT * FROM token WHERE id = $1").bind(id).fetch_optional(pool).await?;
     row.map(StoredToken::try_from).transpose()
 }
 

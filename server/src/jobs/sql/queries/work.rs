@@ -6,6 +6,7 @@ use super::{Connection, Pool, begin, now};
 use crate::config::Limits;
 use crate::jobs::store::{EventKind, summary};
 use crate::jobs::{Claim, Delivered, JobState, Order, StoreError, StoredResult, Tick};
+use crate::metrics::{self, FailureReason};
 use std::time::Duration;
 use uuid::Uuid;
 
@@ -31,9 +32,11 @@ pub(super) async fn tick(
         );
         tell(connection, claim.job, State::failed(&reason), at).await?;
         transaction.commit().await?;
+        metrics::job_failed(FailureReason::OutOfTime);
         return Ok(Order::Stop);
     }
-    let order = if tick.turn_over && others_wait(connection, claim, at).await? { Order::Yield } else { Order::Continue };
+    let order =
+        if tick.turn_over && others_wait(connection, claim, at).await? { Order::Yield } else { Order::Continue };
     transaction.commit().await?;
     Ok(order)
 }
@@ -53,7 +56,12 @@ async fn count_steps(connection: &mut Connection, claim: &Claim, tick: Tick) -> 
 }
 
 /// Notes how far a shard is, if the claim still holds; whether it does.
-async fn fenced(connection: &mut Connection, claim: &Claim, tick: Tick, lease: Option<i64>) -> Result<bool, StoreError> {
+async fn fenced(
+    connection: &mut Connection,
+    claim: &Claim,
+    tick: Tick,
+    lease: Option<i64>,
+) -> Result<bool, StoreError> {
     let done = sqlx::query(
         "UPDATE shard SET steps_done = $4, lease_until = COALESCE($5, lease_until), \
          kills = CASE WHEN $6 = 1 THEN 0 ELSE kills END \
@@ -109,13 +117,21 @@ pub(super) async fn deliver(
     let mut transaction = begin(pool).await?;
     let connection = &mut *transaction;
     let at = now(connection).await?;
+    let counts: Option<(i64, i64, i64)> = sqlx::query_as(
+        "UPDATE job SET steps_done = steps_done + $2, compute_us = compute_us + $3, bytes = bytes + $4, \
+         scenarios_done = scenarios_done + 1, event_seq = event_seq + 1 \
+         WHERE id = $1 AND state = 'running' RETURNING scenarios_done, scenarios, event_seq",
+    )
+    .bind(claim.job.to_string())
+    .bind(result.report.steps as i64 - counted)
+    .bind(computed.as_micros() as i64)
+    .bind(result.bytes as i64)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let Some((scenarios_done, scenarios, seq)) = counts else { return Ok(stop) };
     // From now on the shard's count is that of its next scenario.
-    let steps_done = result.report.steps as i64;
-    let tick = Tick { steps_done, steps_before: counted, computed, saved: true, turn_over: false };
-    if count_steps(connection, claim, tick).await?.is_none() {
-        return Ok(stop);
-    }
-    if !fenced(connection, claim, Tick { steps_done: 0, ..tick }, None).await? {
+    let forward = Tick { steps_done: 0, steps_before: 0, computed, saved: true, turn_over: false };
+    if !fenced(connection, claim, forward, None).await? {
         return Ok(stop);
     }
     // A struct of strings and numbers always becomes JSON.
@@ -133,26 +149,17 @@ pub(super) async fn deliver(
     .bind(at)
     .execute(&mut *connection)
     .await?;
-    let done = sqlx::query(
-        "UPDATE job_scenario SET core_version = $3 WHERE job_id = $1 AND n = $2 AND core_version IS NULL",
-    )
-    .bind(claim.job.to_string())
-    .bind(result.n)
-    .bind(&result.report.core_version)
-    .execute(&mut *connection)
-    .await?;
+    let done =
+        sqlx::query("UPDATE job_scenario SET core_version = $3 WHERE job_id = $1 AND n = $2 AND core_version IS NULL")
+            .bind(claim.job.to_string())
+            .bind(result.n)
+            .bind(&result.report.core_version)
+            .execute(&mut *connection)
+            .await?;
     if done.rows_affected() != 1 {
         return Ok(stop);
     }
-    let (scenarios_done, scenarios): (i64, i64) = sqlx::query_as(
-        "UPDATE job SET scenarios_done = scenarios_done + 1, bytes = bytes + $2 WHERE id = $1 \
-         RETURNING scenarios_done, scenarios",
-    )
-    .bind(claim.job.to_string())
-    .bind(result.bytes as i64)
-    .fetch_one(&mut *connection)
-    .await?;
-    record(connection, claim.job, EventKind::Summary, &summary(result.n, &result.report)).await?;
+    record(connection, claim.job, seq, EventKind::Summary, &summary(result.n, &result.report)).await?;
     let mut delivered = Delivered { order: Order::Continue, ended: None };
     if scenarios_done == scenarios {
         tell(connection, claim.job, State::new(JobState::Succeeded), at).await?;
