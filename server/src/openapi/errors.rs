@@ -116,7 +116,7 @@ fn example(status: u16) -> Value {
         409 => (
             "not-ready",
             "No result",
-            "the job is running: its result comes when it has ended",
+            "the job is running: its result can be read when it has ended",
             json!({ "state": "running" }),
         ),
         410 => (

@@ -74,9 +74,7 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
         ("ready", 200) => json!({ "status": "ready", "unfinished_jobs": 0 }),
         ("follow_job", 200) => {
             let state = json!({ "id": JOB, "state": "running", "at": "2025-11-21T00:37:00Z" });
-            json!(format!(
-                "id: 2\nevent: state\ndata: {state}\n\nevent: progress\ndata: {{\"progress\":0.16,\"scenarios_done\":0}}\n\n"
-            ))
+            json!({ "id": "2", "event": "state", "data": state.to_string() })
         }
         ("metrics", 200) => json!("# TYPE adaptarm_queue_depth gauge\nadaptarm_queue_depth{state=\"queued\"} 0\n"),
         ("series", 200) => json!("t_s,e_deg_1\n0,0\n0.005,-0.00021\n"),

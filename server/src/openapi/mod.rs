@@ -5,9 +5,12 @@ mod errors;
 mod examples;
 mod types;
 
-pub use types::{Gain, Health, Index, PresetNames, Report, Scenario, ScenarioLimits, StudyResult};
+pub use types::{Gain, Health, Index, PresetNames, Report, Scenario, ScenarioLimits, ServerSentEvent, StudyResult};
 
 use crate::routes;
+use crate::series::Format;
+use adaptarm_core::recording::Columns;
+use adaptarm_core::robots::ROBOTS;
 use serde_json::{Value, json};
 use std::sync::LazyLock;
 
@@ -66,6 +69,9 @@ fn complete(operation: &mut Value, safe: bool) {
             form["example"] = example;
         }
     }
+    for parameter in operation["parameters"].as_array_mut().into_iter().flatten() {
+        refine(parameter);
+    }
     if operation.get("requestBody").is_some() {
         operation["requestBody"]["content"]["application/json"]["example"] = examples::request();
     }
@@ -75,4 +81,28 @@ fn complete(operation: &mut Value, safe: bool) {
     let guarded = operation["responses"].get("401").is_some();
     // Without a token where none is needed, or with one.
     operation["security"] = if guarded { json!([{}, { "token": [] }]) } else { json!([{}]) };
+}
+
+/// Says of a parameter what its type in the handler does not.
+fn refine(parameter: &mut Value) {
+    // An absent parameter is absent, not null.
+    if let Some(types) = parameter["schema"]["type"].as_array_mut() {
+        types.retain(|name| name != "null");
+        if let [name] = &types[..] {
+            parameter["schema"]["type"] = name.clone();
+        }
+    }
+    match parameter["name"].as_str() {
+        Some("format") => parameter["schema"]["enum"] = json!(Format::ALL.map(Format::id)),
+        Some("columns") => {
+            let columns = ROBOTS
+                .iter()
+                .flat_map(|robot| Columns { joints: robot.joint_count(), parameters: robot.parameter_count() }.names());
+            let columns: Vec<_> = columns.collect();
+            parameter["schema"] = json!({ "type": "array", "items": { "type": "string", "enum": columns }, "uniqueItems": true, "minItems": 1 });
+            (parameter["style"], parameter["explode"]) = (json!("form"), json!(false));
+            parameter["example"] = json!(["t_s", "e_deg_1"]);
+        }
+        _ => {}
+    }
 }

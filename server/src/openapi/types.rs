@@ -95,3 +95,16 @@ pub struct Health {
     /// Jobs waiting or running, of all users.
     unfinished_jobs: Option<i64>,
 }
+
+/// One of the events of a stream.
+#[derive(Debug, ToSchema)]
+#[expect(dead_code, reason = "the stream writes it line by line; this is its form")]
+pub struct ServerSentEvent {
+    /// Number of the event within its job; absent where the event need not come again.
+    id: Option<String>,
+    /// `state`, `summary` or `progress`.
+    #[schema(pattern = "^(state|summary|progress)$")]
+    event: String,
+    /// JSON.
+    data: String,
+}

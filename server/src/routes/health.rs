@@ -36,7 +36,9 @@ pub(super) async fn ready(State(state): State<AppState>) -> Result<Json<Value>, 
     Ok(Json(json!({ "status": "ready", "unfinished_jobs": queued + running })))
 }
 
-/// Counts and times for Prometheus. Needs the scope `metrics:read`.
+/// Counts and times for Prometheus.
+///
+/// Needs the scope `metrics:read`.
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "server",
     responses((status = 200, description = "Prometheus' text format.", body = String, content_type = "text/plain")),

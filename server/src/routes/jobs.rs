@@ -23,7 +23,9 @@ use uuid::Uuid;
 /// Submits a job.
 ///
 /// It is durable when this answers: it runs when its turn comes, also if the server is stopped or dies meanwhile. Scenarios
-/// that were computed before are answered from stored results. Needs the scope `jobs:write`.
+/// that were computed before are answered from stored results.
+///
+/// Needs the scope `jobs:write`.
 #[utoipa::path(
     post, path = "/api/v1/jobs", operation_id = "submit_job", tag = "jobs",
     params(
@@ -45,15 +47,15 @@ use uuid::Uuid;
             headers(
                 ("Location" = String, description = "The job's address."),
                 ("Preference-Applied" = String, description = "How long the answer was allowed to wait."),
-                ("Idempotency-Replayed" = Option<String>, description = "`true` if an earlier request made the job."),
+                ("Idempotency-Replayed" = String, description = "`true` if an earlier request made the job."),
             ),
         ),
         (
             status = 202, description = "The job is accepted.", body = JobView,
             headers(
                 ("Location" = String, description = "The job's address."),
-                ("Preference-Applied" = Option<String>, description = "How long the answer was allowed to wait."),
-                ("Idempotency-Replayed" = Option<String>, description = "`true` if an earlier request made the job."),
+                ("Preference-Applied" = String, description = "How long the answer was allowed to wait."),
+                ("Idempotency-Replayed" = String, description = "`true` if an earlier request made the job."),
             ),
         ),
     ),
@@ -115,7 +117,9 @@ fn new_job(
     })
 }
 
-/// Lists your jobs, newest first. Needs the scope `jobs:read`.
+/// Lists your jobs, newest first.
+///
+/// Needs the scope `jobs:read`.
 #[utoipa::path(
     get, path = "/api/v1/jobs", operation_id = "list_jobs", tag = "jobs", params(JobsQuery),
     responses((status = 200, description = "A page of jobs.", body = JobsView)),
@@ -134,7 +138,9 @@ pub(super) async fn list(
     Ok(Json(JobsView { jobs: jobs.into_iter().map(JobView::from).collect(), next_cursor }))
 }
 
-/// Shows a job. Needs the scope `jobs:read`.
+/// Shows a job.
+///
+/// Needs the scope `jobs:read`.
 #[utoipa::path(
     get, path = "/api/v1/jobs/{id}", operation_id = "show_job", tag = "jobs", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
     responses((status = 200, description = "The job.", body = JobView)),
@@ -164,7 +170,9 @@ pub(super) async fn cancel(
     Ok(Json(job.ok_or_else(|| no_job(&id))?.into()))
 }
 
-/// Forgets a job; one that has not ended is stopped. Needs the scope `jobs:write`.
+/// Forgets a job; one that has not ended is stopped.
+///
+/// Needs the scope `jobs:write`.
 #[utoipa::path(
     delete, path = "/api/v1/jobs/{id}", operation_id = "delete_job", tag = "jobs", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
     responses((status = 204, description = "It is forgotten.")),
