@@ -83,9 +83,11 @@ impl Gate {
         let Some(text) = self.bearer(headers)? else {
             return if self.open { Ok(Owner::local()) } else { Err(Refusal::NoToken) };
         };
-        self.failures.check(peer).map_err(Refusal::TooManyFailures)?;
         let token = match self.find(text).await {
             Err(refusal @ (Refusal::Malformed(_) | Refusal::Denied(_))) => {
+                // Behind a proxy all have one address: who shows a good token must not suffer from others' bad ones, and
+                // nobody guesses 256 bits, however often.
+                self.failures.check(peer).map_err(Refusal::TooManyFailures)?;
                 self.failures.record(peer);
                 return Err(refusal);
             }

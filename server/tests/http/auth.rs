@@ -107,6 +107,8 @@ async fn who_guesses_is_sent_away() {
     let refused = ask(&app, "GET", JOBS, &guess).await;
     refused.problem(429, "/problems/rate-limit");
     assert!(!refused.header("retry-after").is_empty());
+    // Who shares the address, behind a proxy, does not suffer.
+    assert_eq!(ask(&app, "GET", JOBS, &app.token("ana", ALL).await).await.status, 200);
 }
 
 #[tokio::test]
