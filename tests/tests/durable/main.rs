@@ -6,6 +6,7 @@
 mod accounts;
 mod auth;
 mod cancel;
+mod examples;
 mod formats;
 mod full_disk;
 mod fuzz;
@@ -64,6 +65,7 @@ const CASES: &[Case] = &[
     ("npz_and_parquet_hold_the_bits_of_the_csv", &[Need::Python], formats::series),
     ("strangers_see_nothing_of_others", &[], auth::strangers),
     ("tokens_end_and_have_limits", &[], auth::limits),
+    ("the_examples_of_the_manual_work", &[Need::Python], examples::manual),
     ("the_api_keeps_its_own_description", &[Need::Python], schemathesis::conformance),
     ("no_document_makes_the_server_fail", &[], fuzz::documents),
 ];
