@@ -10,6 +10,7 @@ pub const SETTLING_BAND_DEG_S: f64 = 0.5;
 
 /// Metrics of a recording; one number per joint.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Metrics {
     /// Performance index `I(e)`, deg. Source: paper section 4.3, Table 1.
     pub index_e_deg: Vec<f64>,

@@ -21,6 +21,7 @@ pub mod jobs;
 pub mod laboratory;
 pub mod listener;
 pub mod metrics;
+pub mod openapi;
 pub mod replicate;
 pub mod results;
 pub mod router;

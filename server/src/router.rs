@@ -39,7 +39,6 @@ pub fn build_app(state: AppState) -> Router {
         .layer(CsrfLayer::new().with_rejection_response(|_| cross_site()));
     Router::new()
         .merge(assets::router())
-        .merge(routes::health())
         .merge(routes::api())
         .fallback(|| async { StatusCode::NOT_FOUND })
         .layer(around)

@@ -12,6 +12,7 @@ pub const FORMAT: &str = "adaptarm.scenario/1";
 /// A scenario as written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::scenario))]
 #[serde(deny_unknown_fields)]
 pub struct ScenarioDocument {
     /// `adaptarm.scenario/1`.
@@ -48,6 +49,7 @@ fn default_robot() -> String {
 /// The simulated arm.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::plant))]
 #[serde(deny_unknown_fields, default)]
 pub struct PlantDocument {
     /// Factor on each true parameter, one per parameter; all 1 when left out. The controller does not know of it.
@@ -60,6 +62,7 @@ pub struct PlantDocument {
 /// Regularisation of friction's sign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::friction))]
 #[serde(deny_unknown_fields, default)]
 pub struct FrictionDocument {
     /// Shape.
@@ -87,6 +90,7 @@ impl Default for FrictionDocument {
 /// The desired trajectory. One struct for all kinds, so that a mistake in it is found at its place.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::trajectory))]
 #[serde(deny_unknown_fields)]
 pub struct TrajectoryDocument {
     /// Which; the other fields belong to `fourier`.
@@ -120,6 +124,7 @@ pub enum TrajectoryKind {
 /// A control scheme with its gains; gains left out are the paper's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::scheme))]
 #[serde(tag = "kind", content = "gains", rename_all = "snake_case", deny_unknown_fields)]
 pub enum SchemeDocument {
     /// The proposed scheme, without velocity sensor. Source: paper section 3.3.
@@ -166,6 +171,7 @@ pub enum MethodDocument {
 /// How to integrate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::integration))]
 #[serde(deny_unknown_fields, default)]
 pub struct IntegrationDocument {
     /// Method.
@@ -197,6 +203,7 @@ impl Default for IntegrationDocument {
 /// What to keep of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::recording))]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordingDocument {
     /// Number of samples k, evenly spaced from the start. Source: paper section 4.3 (k = 3000).

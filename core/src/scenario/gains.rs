@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// How many numbers a gain has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum GainShape {
     /// One number.
@@ -19,6 +20,7 @@ pub enum GainShape {
 
 /// One gain, for validation and for people.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GainInfo {
     /// Field name in the scenario.
     pub name: &'static str,
@@ -68,6 +70,7 @@ macro_rules! gain_set {
         $(#[$outer])*
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[cfg_attr(feature = "schema", schemars(transform = super::schema::Gains($name::TABLE)))]
         #[serde(deny_unknown_fields, default)]
         pub struct $name {
             $(#[doc = $meaning] pub $field: field_type!($shape),)*

@@ -9,6 +9,8 @@ mod error;
 mod gains;
 mod presets;
 mod report;
+#[cfg(feature = "schema")]
+mod schema;
 mod tree;
 mod validate;
 

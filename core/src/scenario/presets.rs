@@ -4,6 +4,7 @@ use super::document::{InitialVelocityDocument, ScenarioDocument, SchemeDocument}
 
 /// A named scenario.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Preset {
     /// Identifier.
     pub id: &'static str,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a run gave. Every number is finite, also of a diverged run, whose end is its last good state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Report {
     /// `adaptarm.report/1`.
     pub format: String,
@@ -46,6 +47,7 @@ pub struct Report {
 
 /// How a run ended, without details.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum OutcomeKind {
     /// Reached its duration.

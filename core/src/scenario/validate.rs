@@ -7,6 +7,7 @@ use crate::robots::{ROBOTS, RobotData, robot};
 
 /// Limits on what a scenario can ask for. All are inclusive.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Limits {
     /// Shortest and longest step, s.
     pub step_s: [f64; 2],

@@ -10,12 +10,14 @@ use serde::Serialize;
 use serde_json::Value;
 
 /// A preset.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 pub struct PresetView {
     /// Identifier, title, description.
     #[serde(flatten)]
+    #[schema(value_type = crate::openapi::PresetNames)]
     pub preset: &'static Preset,
     /// Its scenario with everything filled in.
+    #[schema(value_type = crate::openapi::Scenario)]
     pub document: ScenarioDocument,
 }
 
@@ -27,7 +29,7 @@ impl PresetView {
 }
 
 /// A robot.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 pub struct RobotView {
     id: &'static str,
     name: &'static str,
@@ -41,7 +43,7 @@ pub struct RobotView {
     parameters: Vec<ParameterView>,
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 struct ParameterView {
     symbol: &'static str,
     unit: &'static str,
@@ -75,7 +77,7 @@ impl From<&RobotData> for RobotView {
 }
 
 /// A scheme with all that a form needs.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 pub struct SchemeView {
     id: &'static str,
     name: &'static str,
@@ -84,17 +86,19 @@ pub struct SchemeView {
 }
 
 /// Gains that a scenario holds one level deeper, below their group's name.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 struct GainGroup {
     name: &'static str,
     gains: Vec<GainView>,
 }
 
 /// A gain, with the paper's value.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 struct GainView {
     #[serde(flatten)]
+    #[schema(value_type = crate::openapi::Gain)]
     info: GainInfo,
+    /// The paper's value: a number, or one per joint or parameter.
     default: Value,
 }
 
@@ -116,9 +120,10 @@ impl SchemeView {
 }
 
 /// Every limit on what can be asked.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, utoipa::ToSchema)]
 pub struct LimitsView {
     /// On one scenario.
+    #[schema(value_type = crate::openapi::ScenarioLimits)]
     pub scenario: Limits,
     /// On one job.
     pub job: JobLimitsView,
@@ -131,7 +136,7 @@ pub struct LimitsView {
 }
 
 /// Limits on one job.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, utoipa::ToSchema)]
 pub struct JobLimitsView {
     /// Most scenarios.
     pub scenarios: usize,
@@ -148,7 +153,7 @@ pub struct JobLimitsView {
 }
 
 /// Limits on all jobs of one user together.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, utoipa::ToSchema)]
 pub struct UserLimitsView {
     /// Most jobs waiting or running.
     pub unfinished_jobs: u64,

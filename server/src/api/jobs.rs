@@ -16,7 +16,7 @@ pub const LABEL_CHARS: usize = 200;
 pub const PRIORITIES: [i64; 2] = [-10, 10];
 
 /// A request for a job.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, utoipa::ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JobRequest {
     /// What to compute.
@@ -25,9 +25,11 @@ pub struct JobRequest {
     pub spec: StudySpec,
     /// Among your own jobs, larger ones go first; -10 to 10.
     #[serde(default)]
+    #[schema(minimum = -10, maximum = 10, default = 0)]
     pub priority: i64,
     /// A name for people.
     #[serde(default)]
+    #[schema(max_length = 200, pattern = r"^[^\u0000-\u001f\u007f-\u009f]*$")]
     pub label: Option<String>,
     /// Whom to tell of every change of its state.
     #[serde(default)]
@@ -35,10 +37,11 @@ pub struct JobRequest {
 }
 
 /// A study as its owner writes it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, utoipa::ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudySpec {
     /// The scenarios.
+    #[schema(value_type = Vec<crate::openapi::Scenario>, min_items = 1, max_items = 10_000)]
     pub scenarios: Vec<ScenarioDocument>,
 }
 
@@ -101,7 +104,7 @@ impl JobRequest {
 }
 
 /// A job as its owner reads it.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 pub struct JobView {
     /// Identifier.
     pub id: Uuid,
@@ -140,7 +143,7 @@ pub struct JobView {
 }
 
 /// Addresses about a job; those that would answer nothing useful now are left out.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 pub struct JobLinks {
     /// The job itself.
     #[serde(rename = "self")]
@@ -195,7 +198,7 @@ impl From<Job> for JobView {
 }
 
 /// A page of jobs, newest first.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
 pub struct JobsView {
     /// The jobs.
     pub jobs: Vec<JobView>,

@@ -2,6 +2,7 @@
 
 mod config;
 mod gc;
+mod openapi;
 mod options;
 mod presets;
 mod run;
@@ -55,6 +56,8 @@ enum Command {
     Gc(gc::Arguments),
     /// Make, list or revoke the tokens by which a server on a public address knows its users.
     Token(token::Arguments),
+    /// Print the description of the HTTP API as OpenAPI 3.1.
+    Openapi,
     /// Check the settings, or print an example file.
     Config(config::Arguments),
 }
@@ -72,6 +75,7 @@ pub fn main() -> ExitCode {
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Worker(arguments) => worker::run(&arguments),
         Command::Gc(arguments) => gc::run(&arguments),
+        Command::Openapi => openapi::run(),
         Command::Token(arguments) => token::run(&arguments),
         Command::Config(arguments) => config::run(&arguments),
     };

@@ -5,11 +5,10 @@
 
 use super::queue::{Handler, TICKETS};
 use super::shard;
+use super::shared::{EngineSettings, Shared};
 use super::{Claim, JobStore, NewJob, Order, Queue, StoreError, Submitted, Tick};
-use crate::config::{Config, Limits};
 use crate::results::Results;
 use anyhow::Context;
-use rayon::ThreadPool;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
@@ -33,65 +32,6 @@ const NICE: i32 = 10;
 
 /// A job with this label ends its process when it begins: tests prove by it that nothing else suffers.
 const ABORT_LABEL: &str = "ADAPTARM_TEST_ABORT_ON_LABEL";
-
-/// What an engine keeps to.
-#[derive(Debug, Clone)]
-pub struct EngineSettings {
-    /// Threads; 0 only accepts jobs.
-    pub threads: usize,
-    /// For how long a claim holds without a sign of life.
-    pub lease: Duration,
-    /// Time between two signs of life.
-    pub heartbeat: Duration,
-    /// Time after which a shard saves its state and lets others have their turn.
-    pub slice: Duration,
-    /// Bounds on jobs and users.
-    pub limits: Limits,
-}
-
-impl EngineSettings {
-    /// As the configuration says.
-    pub fn of(config: &Config) -> Self {
-        Self {
-            threads: config.thread_count(),
-            lease: config.queue.lease(),
-            heartbeat: config.queue.heartbeat(),
-            slice: config.queue.slice(),
-            limits: config.limits.clone(),
-        }
-    }
-}
-
-/// What all work in this process shares.
-pub(super) struct Shared {
-    pub(super) store: Arc<dyn JobStore>,
-    pub(super) results: Results,
-    pub(super) settings: EngineSettings,
-    pub(super) pool: ThreadPool,
-    queue: Arc<dyn Queue>,
-    /// Name of this process in claims.
-    worker: String,
-    slots: Arc<Semaphore>,
-    /// Told of work while every slot was taken.
-    rung: AtomicBool,
-    /// Held by all for ordinary shards, by one for a suspect.
-    company: RwLock<()>,
-    suspects_waiting: AtomicUsize,
-    stopping: watch::Sender<bool>,
-    abort_label: Option<String>,
-}
-
-impl Shared {
-    /// Whether this process is about to end.
-    pub(super) fn is_stopping(&self) -> bool {
-        *self.stopping.borrow()
-    }
-
-    /// Whether a suspect waits for everything else to let go.
-    pub(super) fn is_wanted_alone(&self, claim: &Claim) -> bool {
-        !claim.suspect && self.suspects_waiting.load(Ordering::Relaxed) > 0
-    }
-}
 
 /// The engine; a clone is the same engine.
 #[derive(Clone)]

@@ -4,11 +4,13 @@
 //! shards from it, computes them on a bounded pool and hands back what they gave; between the two stands nothing but
 //! the store's fences, so any process may die at any moment.
 
+mod claim;
 mod compute;
 mod engine;
 mod plan;
 mod queue;
 mod shard;
+mod shared;
 mod sql;
 mod store;
 mod study;
@@ -16,12 +18,13 @@ mod study;
 mod tests;
 mod upkeep;
 
-pub use engine::{Engine, EngineSettings};
+pub use claim::{Claim, Delivered, Order, StoredResult, Tick};
+pub use engine::Engine;
 pub use queue::{Handler, Queue, WEBHOOKS};
+pub use shared::EngineSettings;
 pub use sql::connect;
 pub use store::{
-    Claim, Delivered, Event, EventKind, Filter, JobStore, NewJob, NewScenario, Order, Pulse, ScenarioRow, StoreError,
-    StoredResult, StoredToken, Submitted, Tick,
+    Event, EventKind, Filter, JobStore, NewJob, NewScenario, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };
 pub use study::{Study, StudyError};
 pub use upkeep::{Forgotten, collect_garbage};

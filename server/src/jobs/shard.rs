@@ -2,7 +2,7 @@
 //! when the store says so.
 
 use super::compute::{Control, Finished, Stretch, compute};
-use super::engine::Shared;
+use super::shared::Shared;
 use super::{Claim, Order, StoreError, StoredResult, Tick};
 use crate::metrics::{self, FailureReason};
 use crate::results::ResultError;

@@ -1,6 +1,6 @@
 //! The whole engine in one process, on a real SQLite file and a real folder.
 
-use super::{JobKind, JobState, NewJob, NewScenario, collect_garbage};
+use super::{JobState, NewJob, NewScenario, collect_garbage};
 use crate::config::{Config, Limits, Retention};
 use crate::laboratory::Laboratory;
 use adaptarm_core::scenario::{Scenario, Scheme};
@@ -26,15 +26,7 @@ fn scenario(scheme: Scheme, seed: u64, duration_s: f64) -> Scenario {
 }
 
 fn job(owner: &str, scenarios: &[Scenario]) -> NewJob {
-    NewJob {
-        owner: owner.to_owned(),
-        kind: JobKind::Study,
-        label: None,
-        priority: 0,
-        webhook: None,
-        idempotency: None,
-        scenarios: scenarios.iter().map(NewScenario::of).collect(),
-    }
+    NewJob::study(owner, scenarios.iter().map(NewScenario::of).collect())
 }
 
 async fn submit(lab: &Laboratory, job: NewJob) -> Uuid {

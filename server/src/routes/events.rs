@@ -7,6 +7,7 @@ use crate::auth::Reader;
 use crate::document::brief;
 use crate::error::Problem;
 use crate::events::{Follower, Told};
+use crate::openapi::ServerSentEvent;
 use crate::state::AppState;
 use axum::extract::State;
 use axum::http::{HeaderMap, HeaderName, StatusCode};
@@ -18,7 +19,6 @@ use serde::Deserialize;
 use serde_json::json;
 use std::convert::Infallible;
 use std::time::Duration;
-use utoipa::IntoParams;
 use uuid::Uuid;
 
 /// Where a client that lost its connection goes on.
@@ -31,15 +31,36 @@ const NO_BUFFERING: (HeaderName, &str) = (HeaderName::from_static("x-accel-buffe
 const KEEP_ALIVE: Duration = Duration::from_secs(15);
 
 /// Where to begin.
-#[derive(Debug, Clone, Default, Deserialize, IntoParams)]
+#[derive(Debug, Clone, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub(super) struct EventsQuery {
     /// The same as the header `Last-Event-ID`, which counts if both are there.
-    #[param(value_type = Option<u32>, minimum = 0)]
+    #[param(value_type = Option<i64>, minimum = 0)]
     last_event_id: Option<String>,
 }
 
+/// Follows a job to its end, by server-sent events.
+///
+/// `state` events tell `{id, state, reason?, at}`, `summary` events `{scenario, report}` for each scenario that has its
+/// result; these have ids and come again to whoever resumes. `progress` events, without ids, tell
+/// `{progress, scenarios_done}` a few times a second while it changes. The stream ends after the final state. Needs the
+/// scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/events", operation_id = "follow_job", tag = "jobs",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        EventsQuery,
+        (
+            "Last-Event-ID" = Option<i64>, Header, minimum = 0,
+            description = "Id of the last event that you have: the stream goes on after it.",
+        ),
+    ),
+    responses(
+        (status = 200, description = "The events.", body = ServerSentEvent, content_type = "text/event-stream"),
+        (status = 204, description = "The job has ended, and you know all of it: do not come again."),
+    ),
+)]
 pub(super) async fn events(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -54,7 +75,7 @@ pub(super) async fn events(
     let after = last_event_id(&headers, query)?;
     let last = state.store.pulses(&[job.id]).await.map_err(database)?.first().map_or(0, |pulse| pulse.seq);
     if after > last {
-        return Err(wrong_id(&after.to_string(), &format!("this job's last event is number {last}")));
+        return Err(Problem::not_found("event of this job yet with the id", &after.to_string()));
     }
     if after == last && job.state.is_final() {
         // To browsers this means: all has been told, do not come again.
@@ -83,17 +104,19 @@ fn write(job: Uuid, told: &Told) -> Event {
 }
 
 fn last_event_id(headers: &HeaderMap, query: EventsQuery) -> Result<i64, Problem> {
-    let text = match headers.get(LAST_EVENT_ID) {
-        Some(value) => String::from_utf8_lossy(value.as_bytes()).into_owned(),
-        None => query.last_event_id.unwrap_or_default(),
-    };
+    let header = headers.get(LAST_EVENT_ID).map(|value| String::from_utf8_lossy(value.as_bytes()).into_owned());
+    let [header, query] = [header, query.last_event_id].map(|text| text.map_or(Ok(None), |text| read_id(&text)));
+    Ok(header?.or(query?).unwrap_or(0))
+}
+
+fn read_id(text: &str) -> Result<Option<i64>, Problem> {
     // Browsers send an empty one, or none, as long as they know of no event.
     if text.is_empty() {
-        return Ok(0);
+        return Ok(None);
     }
     let number =
         text.parse().ok().filter(|number: &i64| *number >= 0 && text.bytes().all(|byte| byte.is_ascii_digit()));
-    number.ok_or_else(|| wrong_id(&text, "not the id of an event: a whole number from 0 up"))
+    number.map(Some).ok_or_else(|| wrong_id(text, "not the id of an event: a whole number from 0 up"))
 }
 
 fn wrong_id(value: &str, message: &str) -> Problem {

@@ -20,6 +20,46 @@ use std::time::Duration;
 use tokio::task::spawn_blocking;
 use uuid::Uuid;
 
+/// Submits a job.
+///
+/// It is durable when this answers: it runs when its turn comes, also if the server is stopped or dies meanwhile. Scenarios
+/// that were computed before are answered from stored results.
+///
+/// Needs the scope `jobs:write`.
+#[utoipa::path(
+    post, path = "/api/v1/jobs", operation_id = "submit_job", tag = "jobs",
+    params(
+        (
+            "Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 200, pattern = "^[!-~]+$",
+            description = "The request's own name. Sent again with the same key, the request makes no second job; with the \
+                           same key and other contents it is refused.",
+        ),
+        (
+            "Prefer" = Option<String>, Header, example = "wait=10",
+            description = "`wait=N` holds the answer back until the job has ended, but not longer than N seconds. What is \
+                           longer than `wait_s` of the limits is lowered; anything else is ignored (RFC 7240).",
+        ),
+    ),
+    request_body(content = JobRequest, content_type = "application/json"),
+    responses(
+        (
+            status = 200, description = "The job has ended within the time that `Prefer: wait` allowed.", body = JobView,
+            headers(
+                ("Location" = String, description = "The job's address."),
+                ("Preference-Applied" = String, description = "How long the answer was allowed to wait."),
+                ("Idempotency-Replayed" = String, description = "`true` if an earlier request made the job."),
+            ),
+        ),
+        (
+            status = 202, description = "The job is accepted.", body = JobView,
+            headers(
+                ("Location" = String, description = "The job's address."),
+                ("Preference-Applied" = String, description = "How long the answer was allowed to wait."),
+                ("Idempotency-Replayed" = String, description = "`true` if an earlier request made the job."),
+            ),
+        ),
+    ),
+)]
 pub(super) async fn submit(
     State(state): State<AppState>,
     Writer(owner): Writer,
@@ -77,6 +117,13 @@ fn new_job(
     })
 }
 
+/// Lists your jobs, newest first.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs", operation_id = "list_jobs", tag = "jobs", params(JobsQuery),
+    responses((status = 200, description = "A page of jobs.", body = JobsView)),
+)]
 pub(super) async fn list(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -91,6 +138,13 @@ pub(super) async fn list(
     Ok(Json(JobsView { jobs: jobs.into_iter().map(JobView::from).collect(), next_cursor }))
 }
 
+/// Shows a job.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}", operation_id = "show_job", tag = "jobs", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
+    responses((status = 200, description = "The job.", body = JobView)),
+)]
 pub(super) async fn show(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -99,7 +153,14 @@ pub(super) async fn show(
     Ok(Json(find(&state, owner.as_str(), &id).await?.into()))
 }
 
-/// Cancelling a job that has ended changes nothing and is no mistake: it may have ended a moment ago.
+/// Stops a job. What it has computed can be read.
+///
+/// Cancelling a job that has ended changes nothing and is no mistake: it may have ended a moment ago. Needs the scope
+/// `jobs:write`.
+#[utoipa::path(
+    post, path = "/api/v1/jobs/{id}/cancel", operation_id = "cancel_job", tag = "jobs", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
+    responses((status = 200, description = "The job as it is now.", body = JobView)),
+)]
 pub(super) async fn cancel(
     State(state): State<AppState>,
     Writer(owner): Writer,
@@ -109,6 +170,13 @@ pub(super) async fn cancel(
     Ok(Json(job.ok_or_else(|| no_job(&id))?.into()))
 }
 
+/// Forgets a job; one that has not ended is stopped.
+///
+/// Needs the scope `jobs:write`.
+#[utoipa::path(
+    delete, path = "/api/v1/jobs/{id}", operation_id = "delete_job", tag = "jobs", params(("id" = uuid::Uuid, Path, description = "The job's identifier.")),
+    responses((status = 204, description = "It is forgotten.")),
+)]
 pub(super) async fn delete(
     State(state): State<AppState>,
     Writer(owner): Writer,

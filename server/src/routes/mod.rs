@@ -1,6 +1,7 @@
 //! Handlers: they translate between HTTP and the rest, and nothing more.
 
 mod catalog;
+mod docs;
 mod events;
 mod health;
 mod jobs;
@@ -12,28 +13,17 @@ use crate::error::Problem;
 use crate::state::AppState;
 use axum::Router;
 use axum::http::{HeaderValue, StatusCode, header};
-use axum::routing::{get, post};
+use axum::routing::get;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
 
-/// The API, whose index is found with and without a slash at the end.
+/// The API, whose index and documentation are found with and without a slash at the end.
 pub fn api() -> Router<AppState> {
-    let version_1 = Router::new()
-        .route("/", get(catalog::index))
-        .route("/presets", get(catalog::presets))
-        .route("/presets/{id}", get(catalog::preset))
-        .route("/robots", get(catalog::robots))
-        .route("/schemes", get(catalog::schemes))
-        .route("/schema/scenario", get(catalog::scenario_schema))
-        .route("/limits", get(catalog::limits))
-        .route("/jobs", post(jobs::submit).get(jobs::list))
-        .route("/jobs/{id}", get(jobs::show).delete(jobs::delete))
-        .route("/jobs/{id}/events", get(events::events))
-        .route("/jobs/{id}/cancel", post(jobs::cancel))
-        .route("/jobs/{id}/result", get(results::result))
-        .route("/jobs/{id}/result/series", get(results::series))
-        .route("/jobs/{id}/result/figures/{name}", get(results::figure));
-    Router::new()
-        .nest("/api/v1", version_1)
+    Router::from(operations())
         .route("/api/v1/", get(catalog::index))
+        .route("/api/docs", get(docs::page))
+        .route("/api/docs/", get(docs::page))
+        .route("/api/docs/{name}", get(docs::file))
         .layer(axum::middleware::map_response(|mut response: axum::response::Response| async {
             // A job's state changes between two looks at it.
             response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
@@ -43,12 +33,33 @@ pub fn api() -> Router<AppState> {
         .layer(axum::middleware::map_response(compression::weaken_tag))
 }
 
-/// What watches over servers asks at the top level.
-pub fn health() -> Router<AppState> {
-    Router::new()
-        .route("/healthz", get(health::alive))
-        .route("/readyz", get(health::ready))
-        .route("/metrics", get(health::metrics))
+/// What the handlers say of themselves.
+pub fn described() -> utoipa::openapi::OpenApi {
+    operations().into_openapi()
+}
+
+/// Every operation that is part of the described API.
+fn operations() -> OpenApiRouter<AppState> {
+    OpenApiRouter::new()
+        .routes(routes!(catalog::index))
+        .routes(routes!(catalog::presets))
+        .routes(routes!(catalog::preset))
+        .routes(routes!(catalog::robots))
+        .routes(routes!(catalog::schemes))
+        .routes(routes!(catalog::scenario_schema))
+        .routes(routes!(catalog::limits))
+        .routes(routes!(docs::document))
+        .routes(routes!(jobs::submit, jobs::list))
+        .routes(routes!(jobs::show, jobs::delete))
+        .routes(routes!(jobs::cancel))
+        .routes(routes!(events::events))
+        .routes(routes!(results::result))
+        .routes(routes!(results::series))
+        .routes(routes!(results::figure))
+        // What watches over servers asks at the top level.
+        .routes(routes!(health::alive))
+        .routes(routes!(health::ready))
+        .routes(routes!(health::metrics))
 }
 
 /// Our own constants cannot be wrong; if one is, that is our failure.

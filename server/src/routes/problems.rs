@@ -67,9 +67,12 @@ pub(super) fn stored(error: &ResultError) -> Problem {
 pub(super) fn not_ready(job: &Job, what: &str) -> Problem {
     let state = job.state.id();
     let detail = match job.state {
-        JobState::Queued | JobState::Running => format!("the job is {state}: {what} comes when it has succeeded"),
+        JobState::Queued | JobState::Running => format!("the job is {state}: {what} can be read when it has ended"),
         JobState::Succeeded | JobState::Failed | JobState::Canceled => {
-            format!("the job {state} before it had {what}: {}", job.reason.as_deref().unwrap_or("nobody noted why"))
+            format!(
+                "the job ended ({state}) before it had {what}: {}",
+                job.reason.as_deref().unwrap_or("nobody noted why")
+            )
         }
     };
     Problem::new(StatusCode::CONFLICT, "/problems/not-ready", "No result", detail).with("state", state)

@@ -4,9 +4,11 @@ use super::jobs::find;
 use super::problems::{database, not_ready, stored};
 use crate::api::{Name, Query};
 use crate::auth::Reader;
+use crate::download::{Disposition, Download};
 use crate::error::Problem;
 use crate::figures::FigureRequest;
-use crate::jobs::{Job, JobState, ScenarioRow};
+use crate::jobs::{Job, JobState, ScenarioRow, StoreError};
+use crate::openapi::StudyResult;
 use crate::series::{SeriesQuery, SeriesRequest};
 use crate::state::AppState;
 use adaptarm_core::recording::Recording;
@@ -14,28 +16,60 @@ use adaptarm_core::scenario::Report;
 use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, header};
-use axum::response::{IntoResponse, Response};
-use futures_util::stream;
+use axum::response::Response;
+use futures_util::{Stream, stream};
 use serde::Deserialize;
 use std::sync::Arc;
 
 /// Scenarios read at a time.
 const PAGE: i64 = 200;
 
-/// The whole result, or as far as it came; written down piece by piece, because ten thousand reports are large.
+/// The result of a job that has ended: whole, or as far as it came.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result", operation_id = "result", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
+    ),
+    responses(
+        (
+            status = 200, description = "The reports.", body = StudyResult,
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (status = 304, description = "You have this file."),
+    ),
+)]
 pub(super) async fn result(
     State(state): State<AppState>,
     Reader(owner): Reader,
     Name(id): Name,
+    headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
     if !job.state.is_final() {
         return Err(not_ready(&job, "its result"));
     }
+    // What has ended does not change any more.
+    let id = job.id.to_string();
+    let download =
+        Download::new("application/json", Disposition::Inline, &format!("{id}.json"), &[&id, job.state.id()]);
+    if let Some(response) = download.not_modified(&headers) {
+        return Ok(response);
+    }
+    let mut response = download.whole(Body::from_stream(reports(state, job)));
+    // Nobody can read a part of a JSON document.
+    response.headers_mut().remove(header::ACCEPT_RANGES);
+    Ok(response)
+}
+
+/// A result piece by piece: ten thousand reports are large.
+fn reports(state: AppState, job: Job) -> impl Stream<Item = Result<Bytes, StoreError>> {
     let complete = job.state == JobState::Succeeded;
     let head =
         format!(r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#, job.state.id());
-    let pieces = stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
+    stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
         if from > job.scenarios {
             return Ok(None);
         }
@@ -47,18 +81,47 @@ pub(super) async fn result(
             }
             text.push_str(row.report.as_deref().unwrap_or("null"));
         }
-        let next = if rows.len() < PAGE as usize {
+        let reached = from + rows.len() as i64;
+        if reached == job.scenarios {
             text.push_str("]}");
-            job.scenarios + 1
-        } else {
-            from + PAGE
-        };
-        Ok::<_, crate::jobs::StoreError>(Some((Bytes::from(text), (state, next, None))))
-    });
-    Ok(([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces)).into_response())
+            return Ok(Some((Bytes::from(text), (state, job.scenarios + 1, None))));
+        }
+        if rows.is_empty() {
+            // Deleted meanwhile: an answer that breaks off is better than one that seems whole.
+            return Err(StoreError::Damaged(format!("{reached} of {} scenarios of the job {}", job.scenarios, job.id)));
+        }
+        Ok(Some((Bytes::from(text), (state, reached, None))))
+    })
 }
 
-/// The samples of one scenario.
+/// The samples of one scenario, also while others are still computed.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/series", operation_id = "series", tag = "results",
+    params(("id" = uuid::Uuid, Path, description = "The job's identifier."), SeriesQuery, ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."), ("Range" = Option<String>, Header, example = "bytes=0-999", description = "The part of the file that you want.")),
+    responses(
+        (
+            status = 200, description = "The samples.",
+            content(
+                (String = "text/csv"),
+                (Vec<u8> = "application/octet-stream"),
+                (Vec<u8> = "application/vnd.apache.parquet"),
+            ),
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (
+            status = 206, description = "The part that is asked for.",
+            content(
+                (String = "text/csv"),
+                (Vec<u8> = "application/octet-stream"),
+                (Vec<u8> = "application/vnd.apache.parquet"),
+            ),
+            headers(("Content-Range" = String, description = "Which part it is.")),
+        ),
+        (status = 304, description = "You have this file."),
+    ),
+)]
 pub(super) async fn series(
     State(state): State<AppState>,
     Reader(owner): Reader,
@@ -76,14 +139,41 @@ pub(super) async fn series(
 }
 
 /// Which scenario's figure.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
 pub(super) struct FigureQuery {
     /// Number of the scenario; the first is 0.
+    #[param(required = false)]
     scenario: usize,
 }
 
-/// A figure of one scenario.
+/// A figure of one scenario, as drawn for the published study.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/figures/{name}", operation_id = "figure", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        ("name" = String, Path, description = "The figure's file; a wrong name is answered with all that there are.", example = "torques.svg"),
+        FigureQuery,
+        ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
+        ("Range" = Option<String>, Header, example = "bytes=0-999", description = "The part of the file that you want."),
+    ),
+    responses(
+        (
+            status = 200, description = "The picture.",
+            content((String = "image/svg+xml"), (Vec<u8> = "image/png")),
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (
+            status = 206, description = "The part that is asked for.",
+            content((String = "image/svg+xml"), (Vec<u8> = "image/png")),
+            headers(("Content-Range" = String, description = "Which part it is.")),
+        ),
+        (status = 304, description = "You have this picture."),
+    ),
+)]
 pub(super) async fn figure(
     State(state): State<AppState>,
     Reader(owner): Reader,

@@ -11,6 +11,7 @@ mod tests;
 
 use super::{JobStore, Queue, StoreError};
 use crate::config::DatabaseUrl;
+use sqlx::migrate::Migrator;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -29,4 +30,11 @@ pub async fn connect(
             Ok((Arc::new(store.clone()), Arc::new(store)))
         }
     }
+}
+
+/// Our tables, in a list of their own: the queue keeps its migrations where sqlx does by default.
+fn migrations() -> Migrator {
+    let mut migrations = sqlx::migrate!("./migrations");
+    migrations.dangerous_set_table_name("adaptarm_migrations");
+    migrations
 }

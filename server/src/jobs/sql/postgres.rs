@@ -40,9 +40,7 @@ pub(super) async fn open(url: &str) -> Result<SqlStore, StoreError> {
     let mut held = pool.acquire().await?;
     sqlx::query("SELECT pg_advisory_lock($1)").bind(MIGRATION_LOCK).execute(&mut *held).await?;
     let migrated = async {
-        let mut migrator = sqlx::migrate!("migrations/postgres");
-        migrator.dangerous_set_table_name("adaptarm_migrations");
-        migrator.run(&pool).await?;
+        super::migrations().run(&pool).await?;
         PostgresStorage::migrations().run(&pool).await
     }
     .await;

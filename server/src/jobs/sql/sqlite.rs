@@ -31,9 +31,7 @@ pub(super) async fn open(path: &Path) -> Result<SqlStore, StoreError> {
         .busy_timeout(Duration::from_secs(30));
     // One writer: waiting in the pool's fair queue beats SQLite's polling for the lock.
     let write = SqlitePoolOptions::new().max_connections(1).connect_with(options.clone()).await?;
-    let mut migrator = sqlx::migrate!("migrations/sqlite");
-    migrator.dangerous_set_table_name("adaptarm_migrations");
-    migrator.run(&write).await?;
+    super::migrations().run(&write).await?;
     // Not its `setup`, which switches durability off for the whole connection.
     SqliteStorage::migrations().run(&write).await?;
     let read = SqlitePoolOptions::new().max_connections(READERS).connect_with(options.read_only(true)).await?;

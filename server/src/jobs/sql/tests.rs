@@ -3,8 +3,7 @@
 use super::sqlite;
 use crate::config::Limits;
 use crate::jobs::{
-    Claim, EventKind, JobKind, JobState, JobStore, NewJob, NewScenario, Order, StoreError, StoredResult, Submitted,
-    Tick,
+    Claim, EventKind, JobState, JobStore, NewJob, NewScenario, Order, StoreError, StoredResult, Submitted, Tick,
 };
 use adaptarm_core::scenario::{Scenario, Scheme};
 use std::time::Duration;
@@ -33,16 +32,7 @@ fn scenario(seed: u64) -> Scenario {
 
 /// A job whose every scenario is a shard of its own.
 fn job(owner: &str, seeds: std::ops::Range<u64>) -> NewJob {
-    let scenarios = seeds.map(|seed| NewScenario { cost_us: 1e6, ..NewScenario::of(&scenario(seed)) }).collect();
-    NewJob {
-        owner: owner.to_owned(),
-        kind: JobKind::Study,
-        label: None,
-        priority: 0,
-        webhook: None,
-        idempotency: None,
-        scenarios,
-    }
+    NewJob::study(owner, seeds.map(|seed| NewScenario { cost_us: 1e6, ..NewScenario::of(&scenario(seed)) }).collect())
 }
 
 fn result(claim: &Claim) -> StoredResult {

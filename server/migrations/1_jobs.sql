@@ -1,5 +1,5 @@
--- Times are microseconds since 1970, identifiers text, documents JSON. The queue's own tables are `Jobs` and `Workers`,
--- and SQLite does not tell `Jobs` from `jobs`: hence the singular.
+-- The same for SQLite and PostgreSQL. Times are microseconds since 1970, identifiers text, documents JSON. The queue has tables
+-- called `Jobs` and `Workers` beside these, and SQLite does not tell `Jobs` from `jobs`: hence the singular.
 CREATE TABLE job (
     id TEXT PRIMARY KEY,
     owner TEXT NOT NULL,

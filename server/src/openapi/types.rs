@@ -1,0 +1,110 @@
+//! Types of the core as the description of the API names them. Their schemas come from the core itself (schemars), which
+//! knows every range and length.
+
+use adaptarm_core::scenario as core;
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value};
+use utoipa::openapi::{ObjectBuilder, RefOr, Schema};
+use utoipa::{PartialSchema, ToSchema};
+
+/// Declares names for types of the core.
+macro_rules! of_core {
+    ($($(#[doc = $doc:literal])+ $name:ident = $type:ty;)+) => {
+        $(
+            $(#[doc = $doc])+
+            #[derive(Debug)]
+            pub struct $name;
+
+            impl PartialSchema for $name {
+                /// Stands in until [`merge`] puts the core's schema here.
+                fn schema() -> RefOr<Schema> {
+                    ObjectBuilder::new().into()
+                }
+            }
+
+            impl ToSchema for $name {}
+        )+
+
+        /// Puts the core's schemas, and those that they refer to, among the components.
+        pub(super) fn merge(components: &mut Map<String, Value>) {
+            let settings = SchemaSettings::draft2020_12().with(|settings| {
+                settings.definitions_path = "/components/schemas".into();
+                settings.meta_schema = None;
+            });
+            let mut generator = settings.into_generator();
+            $(
+                let mut schema = <$type as schemars::JsonSchema>::json_schema(&mut generator);
+                schema.remove("title");
+                components.insert(stringify!($name).to_owned(), schema.into());
+            )+
+            for (name, schema) in generator.take_definitions(true) {
+                components.insert(name, schema);
+            }
+        }
+    };
+}
+
+of_core! {
+    /// A scenario document.
+    Scenario = core::ScenarioDocument;
+    /// The report on one scenario.
+    Report = core::Report;
+    /// Identifier, title and description of a preset.
+    PresetNames = core::Preset;
+    /// What is known of a gain.
+    Gain = core::GainInfo;
+    /// Bounds on one scenario.
+    ScenarioLimits = core::Limits;
+}
+
+/// The result of a study.
+#[derive(Debug, ToSchema)]
+#[expect(dead_code, reason = "handlers write it down piece by piece; this is its form")]
+pub struct StudyResult {
+    /// `adaptarm.study/1`.
+    #[schema(pattern = "^adaptarm\\.study/1$")]
+    format: String,
+    /// Whether there is a report on every scenario.
+    complete: bool,
+    /// Where the job stands.
+    state: crate::jobs::JobState,
+    /// One per scenario, in their order; null where a failed or canceled job has none.
+    reports: Vec<Option<Report>>,
+}
+
+/// What the API offers.
+#[derive(Debug, ToSchema)]
+#[expect(dead_code, reason = "the handler writes it down as it is; this is its form")]
+pub struct Index {
+    /// `adaptarm`.
+    name: String,
+    /// Version of the server.
+    version: String,
+    /// Addresses by what they lead to.
+    links: std::collections::BTreeMap<String, String>,
+}
+
+/// A sign of life.
+#[derive(Debug, ToSchema)]
+#[expect(dead_code, reason = "the handlers write it down as it is; this is its form")]
+pub struct Health {
+    /// `alive` or `ready`.
+    status: String,
+    /// Version of the server.
+    version: Option<String>,
+    /// Jobs waiting or running, of all users.
+    unfinished_jobs: Option<i64>,
+}
+
+/// One of the events of a stream.
+#[derive(Debug, ToSchema)]
+#[expect(dead_code, reason = "the stream writes it line by line; this is its form")]
+pub struct ServerSentEvent {
+    /// Number of the event within its job; absent where the event need not come again.
+    id: Option<String>,
+    /// `state`, `summary` or `progress`.
+    #[schema(pattern = "^(state|summary|progress)$")]
+    event: String,
+    /// JSON.
+    data: String,
+}
