@@ -69,7 +69,8 @@ fn complete(operation: &mut Value, safe: bool) {
             form["example"] = example;
         }
     }
-    for parameter in operation["parameters"].as_array_mut().into_iter().flatten() {
+    // Asked for by index, what is absent would become null.
+    for parameter in operation.get_mut("parameters").and_then(Value::as_array_mut).into_iter().flatten() {
         refine(parameter);
     }
     if operation.get("requestBody").is_some() {
@@ -86,7 +87,7 @@ fn complete(operation: &mut Value, safe: bool) {
 /// Says of a parameter what its type in the handler does not.
 fn refine(parameter: &mut Value) {
     // An absent parameter is absent, not null.
-    if let Some(types) = parameter["schema"]["type"].as_array_mut() {
+    if let Some(types) = parameter.pointer_mut("/schema/type").and_then(Value::as_array_mut) {
         types.retain(|name| name != "null");
         if let [name] = &types[..] {
             parameter["schema"]["type"] = name.clone();
