@@ -18,7 +18,7 @@ pub fn results() -> Result<()> {
     let launch = Launch::new().arguments(["--threads", "1"]).variable("ADAPTARM_QUEUE_SLICE_S", "0.5");
     let mut server = store.launch(launch, PREFIX).serve()?;
     let client = Client::new(&server.url);
-    let mut workload = Workload::new(6, 3000.0)?;
+    let mut workload = Workload::new(6, 1500.0)?;
     let short = workload.study(8);
     let (undisturbed, disturbed) = (workload.even(1), workload.even(1));
 
