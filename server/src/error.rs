@@ -23,6 +23,7 @@
 //!
 //! What is wrong in a query and not in a document has the query's `parameter` in place of a `pointer`.
 
+use crate::auth::Challenge;
 use crate::document::DocumentError;
 use crate::jobs::StudyError;
 use adaptarm_core::scenario::ScenarioError;
@@ -58,7 +59,7 @@ pub struct Problem {
     pub retry_after_s: Option<u32>,
     /// How to log in, where that is what is missing.
     #[serde(skip)]
-    pub challenge: Option<String>,
+    pub challenge: Option<Challenge>,
 }
 
 impl Problem {
@@ -83,13 +84,6 @@ impl Problem {
     #[must_use]
     pub fn with(mut self, name: &str, value: impl Into<Value>) -> Self {
         self.fields.insert(name.to_owned(), value.into());
-        self
-    }
-
-    /// The same, and how to log in.
-    #[must_use]
-    pub fn challenging(mut self, challenge: impl Into<String>) -> Self {
-        self.challenge = Some(challenge.into());
         self
     }
 }
@@ -174,7 +168,7 @@ pub fn render(response: Response, request_id: Option<&str>) -> Response {
         parts.headers.insert(RETRY_AFTER, HeaderValue::from(seconds));
     }
     // Made here, of plain characters only.
-    if let Some(Ok(challenge)) = problem.challenge.as_deref().map(HeaderValue::from_str) {
+    if let Some(Ok(challenge)) = problem.challenge.map(|challenge| HeaderValue::from_str(&challenge.to_string())) {
         parts.headers.insert(WWW_AUTHENTICATE, challenge);
     }
     // Strings and numbers always serialise.

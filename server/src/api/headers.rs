@@ -81,13 +81,13 @@ mod tests {
     use super::*;
     use axum::http::HeaderValue;
 
-    fn headers(name: HeaderName, values: &[&str]) -> HeaderMap {
+    fn headers(name: &HeaderName, values: &[&str]) -> HeaderMap {
         values.iter().map(|value| (name.clone(), HeaderValue::from_bytes(value.as_bytes()).unwrap())).collect()
     }
 
     #[test]
     fn keys_are_short_and_visible() {
-        let key = |values: &[&str]| idempotency_key(&headers(IDEMPOTENCY_KEY, values));
+        let key = |values: &[&str]| idempotency_key(&headers(&IDEMPOTENCY_KEY, values));
         assert_eq!(key(&[]), Ok(None));
         for good in ["a", "\"8e03978e-40d5-43dd-bc93-6894a57f9324\"", &"~".repeat(200)] {
             assert_eq!(key(&[good]), Ok(Some(good.to_owned())));
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn a_wait_is_found_among_other_preferences() {
-        let wait = |values: &[&str]| preferred_wait(&headers(PREFER, values)).map(|wait| wait.as_secs());
+        let wait = |values: &[&str]| preferred_wait(&headers(&PREFER, values)).map(|wait| wait.as_secs());
         for (values, seconds) in [
             (&["wait=5"][..], Some(5)),
             (&["respond-async, WAIT = 10"], Some(10)),

@@ -57,7 +57,7 @@ impl JobsQuery {
         let state = self.state.map(|state| name("state", &state, JobState::from_id, &JobState::ALL.map(JobState::id)));
         let kind = self.kind.map(|kind| name("kind", &kind, JobKind::from_id, &JobKind::ALL.map(JobKind::id)));
         if let Some(label) = &self.label {
-            check_label(label).map_err(wrong_label)?;
+            check_label(label).map_err(|wrong| wrong_label(label, &wrong))?;
         }
         let before = self.cursor.map(|cursor| read_cursor(owner, &cursor)).transpose()?;
         let limit = self.limit.map_or(Ok(USUAL_LIMIT), |limit| read_limit(&limit))?;
@@ -80,13 +80,13 @@ fn name<T>(parameter: &str, value: &str, read: impl Fn(&str) -> Option<T>, allow
     })
 }
 
-fn wrong_label(wrong: Wrong) -> Problem {
+fn wrong_label(label: &str, wrong: &Wrong) -> Problem {
     let message = wrong.to_string();
     match wrong {
-        Wrong::TooMany { found, .. } => invalid("/problems/too-long", "Longer than allowed", "label", "", &message)
-            .with("found", found)
+        Wrong::TooMany { found, .. } => invalid("/problems/too-long", "Longer than allowed", "label", label, &message)
+            .with("found", *found)
             .with("most", LABEL_CHARS),
-        _ => invalid("/problems/malformed", "Not the text that is needed", "label", "", &message)
+        _ => invalid("/problems/malformed", "Not the text that is needed", "label", label, &message)
             .with("message", message),
     }
 }

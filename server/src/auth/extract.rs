@@ -1,7 +1,7 @@
 //! Owners as handlers receive them: whoever has one has passed the gate, with the scope that its type names.
 
 use super::gate::{Refusal, seconds};
-use super::{Denied, Owner, Scope};
+use super::{Challenge, Owner, Scope};
 use crate::error::Problem;
 use crate::listener::Peer;
 use crate::routes::problems::database;
@@ -56,31 +56,26 @@ impl FromRequestParts<AppState> for Observer {
 impl From<Refusal> for Problem {
     fn from(refusal: Refusal) -> Self {
         let detail = refusal.to_string();
-        let unauthorized = |challenge: &str| {
-            Self::new(StatusCode::UNAUTHORIZED, "/problems/token", "A token is needed", detail.clone())
-                .challenging(challenge)
-        };
-        let later = |wait, kind, title| {
-            let problem = Self::new(StatusCode::TOO_MANY_REQUESTS, kind, title, detail.clone());
-            Self { retry_after_s: Some(seconds(wait)), ..problem }
-        };
+        let new = |status, kind, title| Self::new(status, kind, title, detail);
         match refusal {
-            Refusal::NoToken => unauthorized(r#"Bearer realm="adaptarm""#),
-            Refusal::Malformed(_)
-            | Refusal::Denied(Denied::Unknown | Denied::Revoked | Denied::Expired(_) | Denied::Scope(_)) => {
-                unauthorized(r#"Bearer realm="adaptarm", error="invalid_token""#)
+            Refusal::NoToken | Refusal::Malformed(_) | Refusal::Denied(_) => {
+                let none = matches!(refusal, Refusal::NoToken);
+                let challenge = Some(if none { Challenge::Token } else { Challenge::OtherToken });
+                Self { challenge, ..new(StatusCode::UNAUTHORIZED, "/problems/token", "A token is needed") }
             }
             Refusal::Scope(scope) => {
-                let challenge =
-                    format!(r#"Bearer realm="adaptarm", error="insufficient_scope", scope="{}""#, scope.name());
-                Self::new(StatusCode::FORBIDDEN, "/problems/scope", "The token does not allow this", detail)
-                    .challenging(&challenge)
-                    .with("scope", scope.name())
+                let problem = new(StatusCode::FORBIDDEN, "/problems/scope", "The token does not allow this");
+                let problem = problem.with("scope", scope.name());
+                Self { challenge: Some(Challenge::Scope(scope)), ..problem }
             }
             Refusal::TooOften { per_minute, wait } => {
-                later(wait, "/problems/rate-limit", "Too many requests").with("per_minute", per_minute)
+                let problem = new(StatusCode::TOO_MANY_REQUESTS, "/problems/rate-limit", "Too many requests");
+                Self { retry_after_s: Some(seconds(wait)), ..problem.with("per_minute", per_minute) }
             }
-            Refusal::TooManyFailures(wait) => later(wait, "/problems/rate-limit", "Too many wrong tokens"),
+            Refusal::TooManyFailures(wait) => {
+                let problem = new(StatusCode::TOO_MANY_REQUESTS, "/problems/rate-limit", "Too many wrong tokens");
+                Self { retry_after_s: Some(seconds(wait)), ..problem }
+            }
             Refusal::Store(error) => database(error),
         }
     }

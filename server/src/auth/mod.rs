@@ -15,5 +15,5 @@ pub use extract::{Observer, Reader, Writer};
 pub use gate::{Gate, Refusal};
 pub use owner::{Owner, OwnerError};
 pub use rate::{FailureLimiter, Rate, RateLimiter};
-pub use scope::{Scope, ScopeError, Scopes};
+pub use scope::{Challenge, Scope, ScopeError, Scopes};
 pub use token::{Denied, Presented, SecretHash, Token, TokenError, TokenId, TokenText};

@@ -57,6 +57,28 @@ impl FromStr for Scope {
     }
 }
 
+/// How a refused request could do better: the value of `WWW-Authenticate` (RFC 6750).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Challenge {
+    /// With a token.
+    Token,
+    /// With another token.
+    OtherToken,
+    /// With a token of this scope.
+    Scope(Scope),
+}
+
+impl fmt::Display for Challenge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Bearer realm=\"adaptarm\"")?;
+        match self {
+            Self::Token => Ok(()),
+            Self::OtherToken => f.write_str(", error=\"invalid_token\""),
+            Self::Scope(scope) => write!(f, ", error=\"insufficient_scope\", scope=\"{}\"", scope.name()),
+        }
+    }
+}
+
 /// Some scopes, at least one. Written `jobs:read,jobs:write`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(transparent)]

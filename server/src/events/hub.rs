@@ -75,8 +75,8 @@ impl Hub {
         receiver
     }
 
-    /// Waits until a job has ended, but not longer than this and not beyond the end of the server; whether it has ended.
-    pub async fn wait(&self, id: Uuid, longest: Duration) -> bool {
+    /// Waits until a job has ended, but not longer than this and not beyond the end of the server.
+    pub async fn wait(&self, id: Uuid, longest: Duration) {
         let (mut sight, mut closed) = (self.watch(id), self.closing());
         let ended = |sight: &Sight| match sight {
             Sight::Unseen => false,
@@ -84,8 +84,8 @@ impl Hub {
             Sight::Gone => true,
         };
         tokio::select! {
-            waited = timeout(longest, sight.wait_for(ended)) => matches!(waited, Ok(Ok(_))),
-            _ = closed.wait_for(|closed| *closed) => false,
+            _ = timeout(longest, sight.wait_for(ended)) => {}
+            _ = closed.wait_for(|closed| *closed) => {}
         }
     }
 

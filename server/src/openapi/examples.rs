@@ -60,7 +60,7 @@ fn result() -> Result<Value, ScenarioError> {
 /// What this operation answers with this status, if it is JSON or text.
 pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, ScenarioError> {
     Ok(Some(match (operation, status) {
-        ("submit_job", 200) | ("show_job", 200) => json!(job(JobState::Succeeded)),
+        ("submit_job" | "show_job", 200) => json!(job(JobState::Succeeded)),
         ("submit_job", 202) => json!(job(JobState::Queued)),
         ("cancel_job", 200) => json!(job(JobState::Canceled)),
         ("list_jobs", 200) => json!(JobsView { jobs: vec![job(JobState::Succeeded)], next_cursor: None }),

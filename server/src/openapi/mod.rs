@@ -69,7 +69,6 @@ fn complete(operation: &mut Value, safe: bool) {
             form["example"] = example;
         }
     }
-    // Asked for by index, what is absent would become null.
     for parameter in operation.get_mut("parameters").and_then(Value::as_array_mut).into_iter().flatten() {
         refine(parameter);
     }

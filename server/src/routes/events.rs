@@ -105,18 +105,16 @@ fn write(job: Uuid, told: &Told) -> Event {
 
 fn last_event_id(headers: &HeaderMap, query: EventsQuery) -> Result<i64, Problem> {
     let header = headers.get(LAST_EVENT_ID).map(|value| String::from_utf8_lossy(value.as_bytes()).into_owned());
-    let [header, query] = [header, query.last_event_id].map(|text| text.map_or(Ok(None), |text| read_id(&text)));
+    // Browsers send an empty header, or none, as long as they know of no event.
+    let header = header.filter(|text| !text.is_empty());
+    let [header, query] = [header, query.last_event_id].map(|text| text.map(|text| read_id(&text)).transpose());
     Ok(header?.or(query?).unwrap_or(0))
 }
 
-fn read_id(text: &str) -> Result<Option<i64>, Problem> {
-    // Browsers send an empty one, or none, as long as they know of no event.
-    if text.is_empty() {
-        return Ok(None);
-    }
+fn read_id(text: &str) -> Result<i64, Problem> {
     let number =
         text.parse().ok().filter(|number: &i64| *number >= 0 && text.bytes().all(|byte| byte.is_ascii_digit()));
-    number.map(Some).ok_or_else(|| wrong_id(text, "not the id of an event: a whole number from 0 up"))
+    number.ok_or_else(|| wrong_id(text, "not the id of an event: a whole number from 0 up"))
 }
 
 fn wrong_id(value: &str, message: &str) -> Problem {

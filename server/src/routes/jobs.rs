@@ -81,7 +81,8 @@ pub(super) async fn submit(
     let mut status = StatusCode::ACCEPTED;
     if let Some(wait) = preferred_wait(&headers) {
         let wait = wait.min(Duration::from_secs(state.config.limits.wait_s));
-        if !job.state.is_final() && state.hub.wait(job.id, wait).await {
+        if !job.state.is_final() {
+            state.hub.wait(job.id, wait).await;
             // It may have been deleted meanwhile; then this is the last that was known of it.
             job = state.store.job(owner.as_str(), job.id).await.map_err(database)?.unwrap_or(job);
         }

@@ -20,6 +20,7 @@ use axum::response::Response;
 use futures_util::{Stream, stream};
 use serde::Deserialize;
 use std::sync::Arc;
+use uuid::Uuid;
 
 /// Scenarios read at a time.
 const PAGE: i64 = 200;
@@ -58,22 +59,21 @@ pub(super) async fn result(
     if let Some(response) = download.not_modified(&headers) {
         return Ok(response);
     }
-    let mut response = download.whole(Body::from_stream(reports(state, job)));
+    let mut response = download.whole(Body::from_stream(reports(state, job.id, job.state, job.scenarios)));
     // Nobody can read a part of a JSON document.
     response.headers_mut().remove(header::ACCEPT_RANGES);
     Ok(response)
 }
 
 /// A result piece by piece: ten thousand reports are large.
-fn reports(state: AppState, job: Job) -> impl Stream<Item = Result<Bytes, StoreError>> {
-    let complete = job.state == JobState::Succeeded;
-    let head =
-        format!(r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#, job.state.id());
+fn reports(state: AppState, id: Uuid, ended: JobState, count: i64) -> impl Stream<Item = Result<Bytes, StoreError>> {
+    let complete = ended == JobState::Succeeded;
+    let head = format!(r#"{{"format":"adaptarm.study/1","complete":{complete},"state":"{}","reports":["#, ended.id());
     stream::try_unfold((state, 0, Some(head)), move |(state, from, head)| async move {
-        if from > job.scenarios {
+        if from > count {
             return Ok(None);
         }
-        let rows = state.store.scenarios(job.id, from, PAGE).await?;
+        let rows = state.store.scenarios(id, from, PAGE).await?;
         let mut text = head.unwrap_or_default();
         for row in &rows {
             if row.n > 0 {
@@ -82,13 +82,13 @@ fn reports(state: AppState, job: Job) -> impl Stream<Item = Result<Bytes, StoreE
             text.push_str(row.report.as_deref().unwrap_or("null"));
         }
         let reached = from + rows.len() as i64;
-        if reached == job.scenarios {
+        if reached == count {
             text.push_str("]}");
-            return Ok(Some((Bytes::from(text), (state, job.scenarios + 1, None))));
+            return Ok(Some((Bytes::from(text), (state, count + 1, None))));
         }
         if rows.is_empty() {
             // Deleted meanwhile: an answer that breaks off is better than one that seems whole.
-            return Err(StoreError::Damaged(format!("{reached} of {} scenarios of the job {}", job.scenarios, job.id)));
+            return Err(StoreError::Damaged(format!("{reached} of {count} scenarios of the job {id}")));
         }
         Ok(Some((Bytes::from(text), (state, reached, None))))
     })

@@ -1,21 +1,19 @@
 //! Each way in which a request can be wrong has its own answer, and each answer is a problem document.
 
-use crate::support::{App, request, short, study};
+use crate::support::{App, JOBS, request, short, study};
 use axum::body::Body;
 use serde_json::{Value, json};
-
-const JOBS: &str = "/api/v1/jobs";
 
 /// What comes back for a study of one scenario in which `pointer` has been set to `value`.
 async fn with_field(parent: &str, field: &str, value: Value) -> crate::support::Answer {
     let mut scenario = short("proposed");
     scenario.pointer_mut(parent).unwrap()[field] = value;
-    App::new().post(JOBS, study(&[scenario]).to_string()).await
+    App::new().await.post(JOBS, study(&[scenario]).to_string()).await
 }
 
 #[tokio::test]
 async fn unknown_paths() {
-    let app = App::new();
+    let app = App::new().await;
     for path in ["/api/v1/nothing", "/api", "/api/v2/jobs", "/nothing.html", "/api/v1//", "/%ff/..%2f"] {
         app.get(path).await.problem(404, "/problems/http");
     }
@@ -29,10 +27,10 @@ async fn unknown_paths() {
 
 #[tokio::test]
 async fn wrong_method() {
-    let app = App::new();
-    let answer = app.get(JOBS).await;
+    let app = App::new().await;
+    let answer = app.ask("PUT", JOBS, &[]).await;
     answer.problem(405, "/problems/http");
-    assert_eq!(answer.header("allow"), "POST");
+    assert_eq!(answer.header("allow"), "POST,GET,HEAD");
     let answer = app.post("/api/v1/presets", "{}").await;
     answer.problem(405, "/problems/http");
     assert_eq!(answer.header("allow"), "GET,HEAD");
@@ -43,17 +41,17 @@ async fn not_declared_as_json() {
     let body = study(&[short("proposed")]).to_string();
     for media_type in ["text/plain", "application/x-www-form-urlencoded", "", "application/jsonp", "json"] {
         let request = request("POST", JOBS).header("content-type", media_type).body(Body::from(body.clone())).unwrap();
-        App::new().call(request).await.problem(415, "/problems/media-type");
+        App::new().await.call(request).await.problem(415, "/problems/media-type");
     }
     let bare = request("POST", JOBS).body(Body::from(body.clone())).unwrap();
-    App::new().call(bare).await.problem(415, "/problems/media-type");
+    App::new().await.call(bare).await.problem(415, "/problems/media-type");
     let charset = request("POST", JOBS).header("content-type", "Application/JSON; charset=utf-8");
-    assert_eq!(App::new().call(charset.body(Body::from(body)).unwrap()).await.status, 202);
+    assert_eq!(App::new().await.call(charset.body(Body::from(body)).unwrap()).await.status, 202);
 }
 
 #[tokio::test]
 async fn not_json() {
-    let app = App::new();
+    let app = App::new().await;
     let problem = app.post(JOBS, "{\n  \"kind\": study\n}").await.problem(400, "/problems/malformed-json");
     assert_eq!((&problem["line"], &problem["column"]), (&json!(2), &json!(11)));
     assert_eq!(problem["pointer"], "/kind");
@@ -68,7 +66,7 @@ async fn not_json() {
 
 #[tokio::test]
 async fn deep_nesting_is_refused_without_harm() {
-    let app = App::new();
+    let app = App::new().await;
     for body in ["[".repeat(30_000), "{\"kind\":".repeat(30_000)] {
         let problem = app.post(JOBS, body).await.problem(400, "/problems/malformed-json");
         assert!(problem["detail"].as_str().unwrap().contains("recursion limit exceeded"), "{problem}");
@@ -85,9 +83,9 @@ async fn unknown_missing_and_doubled_fields() {
     let problem = with_field("", "stepp", json!(1)).await.problem(422, "/problems/malformed");
     assert_eq!(problem["pointer"], "/spec/scenarios/0/stepp");
     assert!(problem["detail"].as_str().unwrap().contains("unknown field `stepp`"));
-    let app = App::new();
-    let problem = app.post(JOBS, r#"{"kind":"study","priority":1}"#).await.problem(422, "/problems/malformed");
-    assert_eq!(problem["pointer"], "/priority");
+    let app = App::new().await;
+    let problem = app.post(JOBS, r#"{"kind":"study","colour":1}"#).await.problem(422, "/problems/malformed");
+    assert_eq!(problem["pointer"], "/colour");
     let problem = app.post(JOBS, r#"{"kind":"study"}"#).await.problem(422, "/problems/malformed");
     assert!(problem["detail"].as_str().unwrap().starts_with("missing field `spec`"), "{problem}");
     let problem = app.post(JOBS, r#"{"kind":"study","kind":"study"}"#).await.problem(422, "/problems/malformed");
@@ -114,7 +112,7 @@ async fn a_wrong_type_is_found_at_its_place() {
         let problem = with_field(parent, field, value).await.problem(422, "/problems/malformed");
         assert_eq!(problem["pointer"], format!("/spec/scenarios/0/{place}"));
     }
-    let problem = App::new().post(JOBS, format!("[{}]", study(&[]))).await.problem(422, "/problems/malformed");
+    let problem = App::new().await.post(JOBS, format!("[{}]", study(&[]))).await.problem(422, "/problems/malformed");
     assert_eq!(problem["detail"], "invalid type: list, expected an object");
 }
 
@@ -147,7 +145,12 @@ async fn lists_names_and_contradictions() {
 
 #[tokio::test]
 async fn studies_that_are_too_much_together() {
-    let app = App::new();
+    let app = App::with(|config| {
+        config.limits.scenarios_per_job = 64;
+        config.limits.steps_per_job = 1_000_000_000;
+        config.limits.samples_per_job = 400_000;
+    })
+    .await;
     let problem = app.post(JOBS, study(&[]).to_string()).await.problem(422, "/problems/out-of-range");
     assert_eq!((&problem["pointer"], &problem["max"]), (&json!("/spec/scenarios"), &json!(64.0)));
     let mut sampled = short("proposed");
@@ -165,19 +168,25 @@ async fn studies_that_are_too_much_together() {
 }
 
 #[tokio::test]
-async fn labels_over_the_limit() {
-    let app = App::new();
+async fn labels_and_priorities_over_their_limits() {
+    let app = App::new().await;
     let mut labelled = study(&[short("proposed")]);
     labelled["label"] = json!("x".repeat(201));
     let problem = app.post(JOBS, labelled.to_string()).await.problem(422, "/problems/too-long");
     assert_eq!((&problem["pointer"], &problem["most"]), (&json!("/label"), &json!(200)));
+    labelled["label"] = json!("two\nlines");
+    assert_eq!(app.post(JOBS, labelled.to_string()).await.problem(422, "/problems/malformed")["pointer"], "/label");
+    labelled["priority"] = json!(11);
     labelled["label"] = json!("é".repeat(200));
+    let problem = app.post(JOBS, labelled.to_string()).await.problem(422, "/problems/out-of-range");
+    assert_eq!((&problem["pointer"], &problem["max"]), (&json!("/priority"), &json!(10.0)));
+    labelled["priority"] = json!(-10);
     assert_eq!(app.post(JOBS, labelled.to_string()).await.status, 202);
 }
 
 #[tokio::test]
 async fn bodies_over_the_limit() {
-    let app = App::new();
+    let app = App::with(|config| config.limits.request_bytes = 1 << 20).await;
     let problem = app.post(JOBS, vec![b' '; (1 << 20) + 1]).await.problem(413, "/problems/too-large");
     assert_eq!(problem["max_bytes"], 1 << 20);
     let declared =

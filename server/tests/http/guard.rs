@@ -6,7 +6,7 @@ use axum::http::Request;
 
 #[tokio::test]
 async fn only_names_of_this_machine_are_answered() {
-    let app = App::new();
+    let app = App::new().await;
     for host in ["localhost:8080", "127.0.0.1", "[::1]:8080"] {
         let request = Request::get("/healthz").header("host", host).body(Body::empty()).unwrap();
         assert_eq!(app.call(request).await.status, 200, "{host}");
@@ -23,7 +23,7 @@ async fn only_names_of_this_machine_are_answered() {
 
 #[tokio::test]
 async fn pages_of_other_sites_cannot_change_anything() {
-    let app = App::new();
+    let app = App::new().await;
     for (name, value) in [("sec-fetch-site", "cross-site"), ("origin", "https://evil.example"), ("origin", "null")] {
         let request = request("POST", "/api/v1/jobs/x/cancel").header(name, value).body(Body::empty()).unwrap();
         app.call(request).await.problem(403, "/problems/cross-site");
@@ -34,7 +34,7 @@ async fn pages_of_other_sites_cannot_change_anything() {
 
 #[tokio::test]
 async fn every_answer_carries_the_protecting_headers() {
-    let app = App::new();
+    let app = App::new().await;
     for path in ["/healthz", "/api/v1/limits", "/api/v1/nothing", "/nothing"] {
         let answer = app.get(path).await;
         let policy = answer.header("content-security-policy");
@@ -50,6 +50,6 @@ async fn every_answer_carries_the_protecting_headers() {
 #[tokio::test]
 async fn requests_are_named_by_the_server() {
     let asked = request("GET", "/healthz").header("x-request-id", "mine").body(Body::empty()).unwrap();
-    let answer = App::new().call(asked).await;
+    let answer = App::new().await.call(asked).await;
     assert_eq!(answer.header("x-request-id").parse::<uuid::Uuid>().unwrap().get_version_num(), 7);
 }

@@ -1,7 +1,13 @@
 //! The application in process: every class of error, the catalogue, the life of a job, what guards all of it.
 
+mod auth;
 mod catalog;
+mod description;
 mod errors;
+mod events;
+mod files;
 mod guard;
 mod jobs;
+mod requests;
 mod support;
+mod webhooks;

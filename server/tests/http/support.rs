@@ -1,21 +1,37 @@
-//! An application to call, and the requests that most tests make.
+//! An application with tables and results of its own, and the requests that most tests make.
 
-use adaptarm::config::Capacity;
+use adaptarm::auth::{Owner, Token};
+use adaptarm::config::Config;
 use adaptarm::guard::Hosts;
-use adaptarm::jobs::{Engine, MemoryStore};
+use adaptarm::jobs::StoredToken;
+use adaptarm::laboratory::Laboratory;
 use adaptarm::router::build_app;
 use adaptarm::state::AppState;
+use adaptarm::webhooks;
 use axum::Router;
 use axum::body::Body;
 use axum::http::{HeaderMap, Request, StatusCode};
 use http_body_util::BodyExt;
+use jiff::Timestamp;
 use serde_json::{Value, json};
-use std::sync::Arc;
 use std::time::Duration;
+use tempfile::TempDir;
+use tokio::sync::watch;
+use tokio::time::{sleep, timeout};
 use tower::ServiceExt;
 
+pub const JOBS: &str = "/api/v1/jobs";
+
+/// Longer than anything here takes, on a slow machine too.
+const PATIENCE: Duration = Duration::from_secs(60);
+
 /// An application and what it answers.
-pub struct App(Router);
+pub struct App {
+    router: Router,
+    pub state: AppState,
+    _end: watch::Sender<bool>,
+    _data: TempDir,
+}
 
 /// One answer.
 #[derive(Debug)]
@@ -50,53 +66,101 @@ impl Answer {
 }
 
 impl App {
-    pub fn new() -> Self {
-        Self::with(Capacity::default())
+    pub async fn new() -> Self {
+        Self::with(|_| ()).await
     }
 
-    pub fn with(capacity: Capacity) -> Self {
-        Self(build_app(AppState::in_memory(capacity, Hosts::Loopback).unwrap()))
+    /// With other settings than the usual ones.
+    pub async fn with(change: impl FnOnce(&mut Config)) -> Self {
+        Self::start(change, Hosts::Loopback).await
     }
 
-    /// With this in place of the simulation, and one thread.
-    pub fn simulating(capacity: Capacity, simulate: adaptarm::jobs::Simulate) -> Self {
-        let engine = Engine::with(Arc::new(MemoryStore::new(capacity)), simulate, 1).unwrap();
-        Self(build_app(AppState::new(engine, Hosts::Loopback)))
+    /// As if other machines could reach it.
+    pub async fn public(change: impl FnOnce(&mut Config)) -> Self {
+        Self::start(change, Hosts::Any).await
+    }
+
+    async fn start(change: impl FnOnce(&mut Config), hosts: Hosts) -> Self {
+        adaptarm::metrics::start();
+        let data = tempfile::tempdir().unwrap();
+        let mut config = Config { data: Some(data.path().to_owned()), threads: Some(2), ..Config::default() };
+        config.queue.heartbeat_ms = 20;
+        change(&mut config);
+        let laboratory = Laboratory::open(&config).await.unwrap();
+        let state = AppState::new(&laboratory, &config, hosts);
+        let (end, ending) = watch::channel(false);
+        tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(&config), ending));
+        let engine = laboratory.engine.clone();
+        tokio::spawn(async move {
+            // Holds the folder for as long as it works.
+            let _laboratory = laboratory;
+            engine.run().await;
+        });
+        Self { router: build_app(state.clone()), state, _end: end, _data: data }
     }
 
     pub async fn call(&self, request: Request<Body>) -> Answer {
-        let response = self.0.clone().oneshot(request).await.unwrap();
+        let response = self.router.clone().oneshot(request).await.unwrap();
         let (parts, body) = response.into_parts();
-        let body = body.collect().await.unwrap().to_bytes().to_vec();
+        let body = timeout(PATIENCE, body.collect()).await.expect("the answer ends").unwrap().to_bytes().to_vec();
         Answer { status: parts.status, headers: parts.headers, body }
     }
 
+    /// A request without a body.
+    pub async fn ask(&self, method: &str, path: &str, headers: &[(&str, &str)]) -> Answer {
+        let request =
+            headers.iter().fold(request(method, path), |request, (name, value)| request.header(*name, *value));
+        self.call(request.body(Body::empty()).unwrap()).await
+    }
+
     pub async fn get(&self, path: &str) -> Answer {
-        self.call(request("GET", path).body(Body::empty()).unwrap()).await
+        self.ask("GET", path, &[]).await
     }
 
     pub async fn post(&self, path: &str, body: impl Into<Body>) -> Answer {
+        self.post_with(path, body, &[]).await
+    }
+
+    pub async fn post_with(&self, path: &str, body: impl Into<Body>, headers: &[(&str, &str)]) -> Answer {
         let request = request("POST", path).header("content-type", "application/json");
+        let request = headers.iter().fold(request, |request, (name, value)| request.header(*name, *value));
         self.call(request.body(body.into()).unwrap()).await
     }
 
     /// Submits a study and returns its address.
     pub async fn submit(&self, scenarios: &[Value]) -> String {
-        let answer = self.post("/api/v1/jobs", study(scenarios).to_string()).await;
+        let answer = self.post(JOBS, study(scenarios).to_string()).await;
         assert_eq!(answer.status, StatusCode::ACCEPTED, "{answer:?}");
         answer.header("location").to_owned()
     }
 
     /// The job once it has reached one of these states.
     pub async fn wait(&self, job: &str, states: &[&str]) -> Value {
-        for _ in 0..2000 {
-            let view = self.get(job).await.json();
-            if states.iter().any(|state| view["state"] == *state) {
-                return view;
+        let reached = async {
+            loop {
+                let view = self.get(job).await.json();
+                if states.iter().any(|state| view["state"] == *state) {
+                    return view;
+                }
+                sleep(Duration::from_millis(5)).await;
             }
-            tokio::time::sleep(Duration::from_millis(5)).await;
-        }
-        panic!("{job} never reached {states:?}");
+        };
+        timeout(PATIENCE, reached).await.unwrap_or_else(|_| panic!("{job} never reached {states:?}"))
+    }
+
+    /// Value of the header `Authorization` for a new token.
+    pub async fn token(&self, owner: &str, scopes: &str) -> String {
+        let (owner, scopes) = (Owner::new(owner).unwrap(), scopes.parse().unwrap());
+        let (token, text) = Token::issue(owner, "test", scopes, None, Timestamp::now()).unwrap();
+        self.state.store.add_token(&StoredToken::from(&token)).await.unwrap();
+        format!("Bearer {}", text.reveal())
+    }
+}
+
+impl Drop for App {
+    fn drop(&mut self) {
+        // Or a simulation would keep its thread to the end of all tests.
+        self.state.engine.stop();
     }
 }
 
