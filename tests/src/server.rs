@@ -2,7 +2,7 @@
 
 use crate::binary;
 use crate::process::Process;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use std::ffi::{OsStr, OsString};
 use std::ops::{Deref, DerefMut};
 use std::path::Path;
@@ -89,7 +89,8 @@ impl Launch {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]);
         // Settings of whoever runs the tests are not what they test.
-        for (name, _) in std::env::vars_os().filter(|(name, _)| name.to_string_lossy().starts_with("ADAPTARM_")) {
+        let own = |name: &str| name.starts_with("ADAPTARM_") || name.starts_with("AWS_");
+        for (name, _) in std::env::vars_os().filter(|(name, _)| own(&name.to_string_lossy())) {
             command.env_remove(name);
         }
         // A line per request would bury what a failing test says.
@@ -124,6 +125,23 @@ impl Server {
         self.launch.bind = format!("{host}:{port}");
         (self.process, self.url) = self.launch.start_server(self.data.path())?;
         Ok(())
+    }
+
+    /// A new token of this user.
+    pub fn token(&self, owner: &str, arguments: &[&str]) -> Result<String> {
+        let printed = self.tokens(&[&["create", "--owner", owner], arguments].concat())?;
+        let token = printed.trim_end();
+        ensure!(token.starts_with("adaptarm_") && !token.contains(char::is_whitespace), "not a token alone: {printed}");
+        Ok(token.to_owned())
+    }
+
+    /// What `adaptarm token` prints about this server's data.
+    pub fn tokens(&self, arguments: &[&str]) -> Result<String> {
+        let mut command = Command::new(binary()?);
+        let (action, rest) = arguments.split_first().context("no action")?;
+        let output = command.args(["token", action, "--data"]).arg(self.data.path()).args(rest).output()?;
+        ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        Ok(String::from_utf8(output.stdout)?)
     }
 }
 

@@ -109,6 +109,12 @@ impl Workload {
         self.work(&[shape], true)
     }
 
+    /// A job of this many long scenarios: the shapes in turn, so that every such job is the same work.
+    pub fn even(&mut self, scenarios: usize) -> Work {
+        let shapes = (0..scenarios).map(|n| n % self.long.len()).collect::<Vec<_>>();
+        self.work(&shapes, true)
+    }
+
     fn work(&mut self, shapes: &[usize], long: bool) -> Work {
         let mut hashes = Vec::new();
         let mut scenarios = Vec::new();

@@ -105,8 +105,6 @@ fn write(job: Uuid, told: &Told) -> Event {
 
 fn last_event_id(headers: &HeaderMap, query: EventsQuery) -> Result<i64, Problem> {
     let header = headers.get(LAST_EVENT_ID).map(|value| String::from_utf8_lossy(value.as_bytes()).into_owned());
-    // Browsers send an empty header, or none, as long as they know of no event.
-    let header = header.filter(|text| !text.is_empty());
     let [header, query] = [header, query.last_event_id].map(|text| text.map(|text| read_id(&text)).transpose());
     Ok(header?.or(query?).unwrap_or(0))
 }

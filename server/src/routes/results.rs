@@ -144,7 +144,7 @@ pub(super) async fn series(
 #[into_params(parameter_in = Query)]
 pub(super) struct FigureQuery {
     /// Number of the scenario; the first is 0.
-    #[param(required = false)]
+    #[param(required = false, maximum = 99_999)]
     scenario: usize,
 }
 

@@ -17,7 +17,7 @@ const EVERY: [usize; 2] = [1, 1_000_000];
 #[into_params(parameter_in = Query)]
 pub struct SeriesQuery {
     /// Number of the scenario; the first is 0.
-    #[param(required = false)]
+    #[param(required = false, maximum = 99_999)]
     pub scenario: usize,
     /// `csv` (the default), `npz` for numpy.load, or `parquet`.
     pub format: Option<String>,

@@ -2,10 +2,9 @@
 
 use adaptarm_tests::client::Client;
 use adaptarm_tests::workload::{scenario, study};
-use adaptarm_tests::{Launch, Server, binary};
+use adaptarm_tests::{Launch, Server};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
-use std::process::Command;
 use std::time::Duration;
 
 /// What may be asked about a job, by method and what follows its path.
@@ -13,8 +12,8 @@ const QUESTIONS: [(&str, &str); 8] = [
     ("GET", ""),
     ("GET", "/result"),
     ("GET", "/result/series"),
-    ("GET", "/result/figures/errors.svg"),
-    ("GET", "/result/figures/errors.png"),
+    ("GET", "/result/figures/tracking_errors.svg"),
+    ("GET", "/result/figures/tracking_errors.png"),
     ("GET", "/events"),
     ("POST", "/cancel"),
     ("DELETE", ""),
@@ -22,21 +21,6 @@ const QUESTIONS: [(&str, &str); 8] = [
 
 fn serve() -> Result<Server> {
     Launch::new().bind("0.0.0.0:0").serve()
-}
-
-/// A new token of this user, printed by the command line.
-fn token(server: &Server, owner: &str, arguments: &[&str]) -> Result<String> {
-    let printed = tokens(server, &[&["create", "--owner", owner], arguments].concat())?;
-    let token = printed.split_whitespace().find(|word| word.starts_with("adaptarm_"));
-    Ok(token.with_context(|| format!("no token in {printed}"))?.to_owned())
-}
-
-fn tokens(server: &Server, arguments: &[&str]) -> Result<String> {
-    let mut command = Command::new(binary()?);
-    command.args(["token", arguments[0], "--data"]).arg(server.data.path()).args(&arguments[1..]);
-    let output = command.output()?;
-    ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    Ok(String::from_utf8(output.stdout)?)
 }
 
 fn small(seed: u64) -> serde_json::Value {
@@ -48,14 +32,14 @@ fn small(seed: u64) -> serde_json::Value {
 pub fn strangers() -> Result<()> {
     let server = serve()?;
     let nobody = Client::new(&server.url);
-    let ada = nobody.with_token(&token(&server, "ada", &[])?);
-    let eve = nobody.with_token(&token(&server, "eve", &[])?);
+    let ada = nobody.with_token(&server.token("ada", &[])?);
+    let eve = nobody.with_token(&server.token("eve", &[])?);
     let id = ada.submit(&small(1))?;
     ensure!(ada.wait(&id, Duration::from_mins(1))?["state"] == "succeeded", "her own job");
     ada.submit(&small(2))?;
     let path = format!("/api/v1/jobs/{id}");
 
-    let forged = token(&server, "mallory", &[])?;
+    let forged = server.token("mallory", &[])?;
     let (start, last) = forged.split_at(forged.len() - 1);
     let forged = format!("{start}{}", if last == "0" { "1" } else { "0" });
     for stranger in [&nobody, &nobody.with_token("adaptarm_no"), &nobody.with_token(&forged)] {
@@ -95,31 +79,31 @@ pub fn strangers() -> Result<()> {
 pub fn limits() -> Result<()> {
     let server = serve()?;
     let nobody = Client::new(&server.url);
-    let secret = token(&server, "ada", &[])?;
+    let secret = server.token("ada", &[])?;
     let ada = nobody.with_token(&secret);
-    let reader = nobody.with_token(&token(&server, "ada", &["--scopes", "jobs:read"])?);
+    let reader = nobody.with_token(&server.token("ada", &["--scopes", "jobs:read"])?);
     let id = ada.submit(&small(1))?;
     reader.get(&format!("/api/v1/jobs/{id}"))?.expect_status(200)?;
     reader.post("/api/v1/jobs", &small(2))?.expect_status(403)?;
     reader.cancel(&id)?.expect_status(403)?;
     reader.delete(&format!("/api/v1/jobs/{id}"))?.expect_status(403)?;
     reader.get("/metrics")?.expect_status(403)?;
-    let watcher = nobody.with_token(&token(&server, "watch", &["--scopes", "metrics:read"])?);
+    let watcher = nobody.with_token(&server.token("watch", &["--scopes", "metrics:read"])?);
     watcher.get("/metrics")?.expect_status(200)?;
     watcher.get("/api/v1/jobs")?.expect_status(403)?;
 
     let public = secret.split('_').nth(1).context("a token without a public part")?;
-    ensure!(tokens(&server, &["list"])?.contains(public), "the list shows which tokens there are");
-    ensure!(!tokens(&server, &["list"])?.contains(&secret), "the list shows a secret");
-    tokens(&server, &["revoke", public])?;
+    ensure!(server.tokens(&["list"])?.contains(public), "the list shows which tokens there are");
+    ensure!(!server.tokens(&["list"])?.contains(&secret), "the list shows a secret");
+    server.tokens(&["revoke", public])?;
     ada.get("/api/v1/jobs")?.expect_status(401)?;
     reader.get("/api/v1/jobs")?.expect_status(200)?;
 
     drop(server);
     let server = Launch::new().bind("0.0.0.0:0").variable("ADAPTARM_AUTH_REQUESTS_PER_MINUTE", "20").serve()?;
     let nobody = Client::new(&server.url);
-    let busy = nobody.with_token(&token(&server, "ada", &[])?);
-    let calm = nobody.with_token(&token(&server, "bob", &[])?);
+    let busy = nobody.with_token(&server.token("ada", &[])?);
+    let calm = nobody.with_token(&server.token("bob", &[])?);
     let answers = (0..60).map(|_| busy.get("/api/v1/jobs")).collect::<Result<Vec<_>>>()?;
     let refused = answers.iter().find(|answer| answer.status != 200).context("sixty requests at once were answered")?;
     ensure!(refused.status == 429 && !refused.header("retry-after").is_empty(), "{refused}");

@@ -5,8 +5,10 @@
 
 mod accounts;
 mod auth;
+mod bucket;
 mod cancel;
 mod examples;
+mod fair;
 mod formats;
 mod full_disk;
 mod fuzz;
@@ -57,6 +59,8 @@ const CASES: &[Case] = &[
     ("killed_servers_lose_nothing_and_double_nothing", &[], kill::servers),
     ("workers_and_a_database_may_die_in_turn", &[Need::Postgres], postgres::crashes),
     ("two_workers_do_nearly_twice_the_work_of_one", &[Need::Postgres], postgres::throughput),
+    ("results_in_a_bucket_are_the_same", &[], bucket::results),
+    ("nobody_waits_for_anothers_mountain", &[], fair::users),
     ("a_full_disk_fails_the_job_and_nothing_else", &[Need::Mount], full_disk::results),
     ("a_job_that_kills_its_process_fails_alone", &[], poison::job),
     ("many_clients_at_once_are_all_served", &[], load::clients),
