@@ -23,7 +23,7 @@ use tower::ServiceExt;
 pub const JOBS: &str = "/api/v1/jobs";
 
 /// Longer than anything here takes, on a slow machine too.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// An application and what it answers.
 pub struct App {
