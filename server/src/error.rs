@@ -1,27 +1,7 @@
 //! Errors over HTTP: RFC 9457 `application/problem+json`, for every response from 400 up.
 //!
-//! `type` is stable, relative to the server, and one of:
-//!
-//! | type | status | meaning, and fields beside `title`, `status`, `detail`, `instance` |
-//! |---|---|---|
-//! | `/problems/malformed-json` | 400 | not JSON: `line`, `column`, `pointer` |
-//! | `/problems/out-of-range` | 422 | number outside its range: `pointer`, `value`, `min`, `max`, `unit` |
-//! | `/problems/wrong-length` | 422 | list of the wrong length: `pointer`, `found`, `expected`, `why` |
-//! | `/problems/too-long` | 422 | list or label over its longest: `pointer`, `found`, `most`, `what` |
-//! | `/problems/too-much` | 422 | study over its limit of scenarios, steps or samples: `pointer`, `what`, `total`, `most` |
-//! | `/problems/unknown` | 422 | name without meaning: `pointer`, `value`, `allowed` |
-//! | `/problems/conflict` | 422 | fields that contradict each other: `pointer`, `message` |
-//! | `/problems/malformed` | 422 | unknown, missing or doubled field, or wrong type: `pointer`, `message` |
-//! | `/problems/too-large` | 413 | body over the limit: `max_bytes` |
-//! | `/problems/media-type` | 415 | body is not declared as JSON |
-//! | `/problems/not-ready` | 409 | no result yet, or none ever: `state` |
-//! | `/problems/gone` | 410 | no longer kept |
-//! | `/problems/queue-full` | 503 | too many jobs; `Retry-After` says when to try again |
-//! | `/problems/wrong-host` | 421 | `Host` names another machine |
-//! | `/problems/cross-site` | 403 | another site's page sent this |
-//! | `/problems/http` | any | nothing but what the status says |
-//!
-//! What is wrong in a query and not in a document has the query's `parameter` in place of a `pointer`.
+//! `type` is stable and relative to the server. docs/api.md has the table of all of them, and a test compares. What is wrong in
+//! a document has its place as a `pointer`, what is wrong in a query its `parameter`.
 
 use crate::auth::Challenge;
 use crate::document::DocumentError;
@@ -39,7 +19,7 @@ pub const MEDIA_TYPE: &str = "application/problem+json";
 /// One error, as a client sees it. Rendered by [`render`], which knows the request it answers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problem {
-    /// Which kind; see the table above.
+    /// Which kind; see the table in docs/api.md.
     #[serde(rename = "type")]
     pub kind: &'static str,
     /// The kind in words.

@@ -70,7 +70,7 @@ impl<K: Hash + Eq + Clone, C: Clock + Clone> RateLimiter<K, C> {
     }
 }
 
-/// Limits failed authentications per address: who failed too often is turned away before anything is looked up.
+/// Limits failed authentications per address: who fails too often is told to wait.
 #[derive(Debug)]
 pub struct FailureLimiter {
     interval: Duration,

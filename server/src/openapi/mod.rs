@@ -93,6 +93,7 @@ fn refine(parameter: &mut Value) {
         }
     }
     match parameter["name"].as_str() {
+        Some("scenario") => parameter["schema"]["maximum"] = json!(u32::MAX),
         Some("format") => parameter["schema"]["enum"] = json!(Format::ALL.map(Format::id)),
         Some("columns") => {
             let columns = ROBOTS

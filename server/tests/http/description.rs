@@ -111,3 +111,29 @@ async fn requests_are_counted() {
         "{text}"
     );
 }
+
+/// Everything in quotes or backticks that looks like a problem's type.
+fn kinds(text: &str) -> std::collections::BTreeSet<String> {
+    let end = |rest: &str| rest.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(rest.len());
+    let kinds = text.split("/problems/").skip(1).map(|rest| rest[..end(rest)].to_owned());
+    kinds.filter(|kind| !kind.is_empty()).collect()
+}
+
+#[test]
+fn the_manual_names_every_type_of_problem_and_no_other() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (mut folders, mut used) = (vec![root.join("src")], std::collections::BTreeSet::new());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                used.extend(kinds(&std::fs::read_to_string(path).unwrap()));
+            }
+        }
+    }
+    let manual = std::fs::read_to_string(root.join("../docs/api.md")).unwrap();
+    let table = manual.split("| type | status |").nth(1).unwrap();
+    assert_eq!(kinds(table), used);
+}

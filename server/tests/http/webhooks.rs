@@ -87,3 +87,13 @@ async fn addresses_that_only_the_server_can_reach_are_refused() {
     let problem = app.post(JOBS, body.to_string()).await.problem(422, "/problems/out-of-range");
     assert_eq!(problem["pointer"], "/webhook/secret");
 }
+
+/// The signature that docs/api.md shows to people who write receivers.
+#[test]
+fn the_manual_s_signature_is_ours() {
+    let signature = "t=1700000000,v1=d5f5834972cbc6cf5590800c46ccaa0cd6c16f19c0c73dbdf9b4c56390cbc2a3";
+    let manual = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/api.md");
+    assert!(std::fs::read_to_string(manual).unwrap().contains(signature));
+    let tolerance = Duration::from_mins(5);
+    assert_eq!(verify(&Secret::new(SECRET), signature, r#"{"id":"1"}"#, 1_700_000_001, tolerance), Ok(()));
+}

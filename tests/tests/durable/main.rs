@@ -7,6 +7,7 @@ mod accounts;
 mod auth;
 mod bucket;
 mod cancel;
+mod examples;
 mod fair;
 mod formats;
 mod full_disk;
@@ -68,6 +69,7 @@ const CASES: &[Case] = &[
     ("npz_and_parquet_hold_the_bits_of_the_csv", &[Need::Python], formats::series),
     ("strangers_see_nothing_of_others", &[], auth::strangers),
     ("tokens_end_and_have_limits", &[], auth::limits),
+    ("the_examples_of_the_manual_work", &[Need::Python], examples::manual),
     ("the_api_keeps_its_own_description", &[Need::Python], schemathesis::conformance),
     ("no_document_makes_the_server_fail", &[], fuzz::documents),
 ];
