@@ -36,7 +36,7 @@ pub fn manual() -> Result<()> {
     let told = run(Command::new("bash").args(["-euo", "pipefail", "-c", &here(shell)]), folder.path())?;
     ensure!(told.contains("event: summary") && told.contains("\"state\":\"succeeded\""), "{told}");
     let read = |name: &str| fs::read(folder.path().join(name)).context(name.to_owned());
-    ensure!(read("errors.csv")?.starts_with(b"t_s,e_deg_1\n0,"), "the samples");
+    ensure!(read("errors.csv")?.starts_with(b"t_s,e_deg_1\n0.0,"), "the samples");
     ensure!(read("torques.png")?.starts_with(b"\x89PNG"), "the picture");
     ensure!(read("result.json")?.starts_with(b"{\"format\":\"adaptarm.study/1\",\"complete\":true"), "the result");
 
