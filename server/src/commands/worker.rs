@@ -53,12 +53,13 @@ async fn work(config: &Config) -> Result<(), Failure> {
     let engine = laboratory.engine.clone();
     let (end, ending) = watch::channel(false);
     let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
-    let stop = async {
-        shutdown.wait(|| {}).await;
-        engine.stop();
-        end.send_replace(true);
-    };
-    tokio::join!(laboratory.engine.run(), stop);
+    let working = tokio::spawn(async move { engine.run().await });
+    shutdown.wait(|| laboratory.engine.stop()).await;
+    end.send_replace(true);
+    // It saves how far everything has come; whatever cannot be saved by then is left to its lease.
+    if timeout(config.server.drain(), working).await.is_err() {
+        tracing::warn!("some shards were still saving their state after {} s", config.server.drain_s);
+    }
     // What is not delivered by then stays in the queue.
     let _ = timeout(CALLS_DRAIN, calling).await;
     tracing::info!("stopped");

@@ -45,14 +45,14 @@ pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
             tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over");
         }
         Err(Stopped::Yielded) => {
-            if let Err(error) = retry(|| shared.store.release(claim)).await {
+            if let Err(error) = retry(shared, || shared.store.release(claim)).await {
                 tracing::warn!(job = %claim.job, shard = claim.shard, "cannot give the shard back: {error}");
             }
         }
         Err(Stopped::Failed(kind, reason)) => {
             metrics::job_failed(kind);
             tracing::error!(job = %claim.job, shard = claim.shard, "{reason}");
-            if let Err(error) = retry(|| shared.store.fail(claim, &reason)).await {
+            if let Err(error) = retry(shared, || shared.store.fail(claim, &reason)).await {
                 tracing::warn!(job = %claim.job, shard = claim.shard, "cannot note that the job failed: {error}");
             }
         }
@@ -198,7 +198,11 @@ impl Worker<'_> {
         let deadline = Instant::now() + RETRY_FOR;
         let mut pause = RETRY_FIRST;
         while let Err(error) = self.shared.results.put(&report, &encoded).await {
-            let passing = matches!(error, ResultError::Unavailable(_)) && Instant::now() < deadline;
+            let passing = matches!(error, ResultError::Unavailable(_));
+            if passing && self.shared.is_stopping() {
+                return Err(Stopped::Yielded);
+            }
+            let passing = passing && Instant::now() < deadline;
             if !passing {
                 return Err(Stopped::Failed(FailureReason::Storage, format!("scenario {n}: {error}")));
             }
@@ -213,7 +217,8 @@ impl Worker<'_> {
         metrics::simulated(simulated_s, report.steps);
         let computed = std::mem::replace(&mut self.since_tick, Instant::now()).elapsed();
         let result = StoredResult { n, report, bytes: encoded.bytes.len() as u64, checksum: encoded.checksum };
-        let delivered = retry(|| self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
+        let delivered =
+            retry(self.shared, || self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
         self.counted = 0;
         match delivered.map_err(Stopped::Unreachable)? {
             super::Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
@@ -229,8 +234,9 @@ impl Worker<'_> {
     }
 }
 
-/// Tries again for a while what fails because the database cannot be reached.
-pub(super) async fn retry<T, F>(mut attempt: impl FnMut() -> F) -> Result<T, StoreError>
+/// Tries again for a while what fails because the database cannot be reached, but not when this process is about to end:
+/// what is lost with it, others find by its lease.
+async fn retry<T, F>(shared: &Shared, mut attempt: impl FnMut() -> F) -> Result<T, StoreError>
 where
     F: Future<Output = Result<T, StoreError>>,
 {
@@ -238,7 +244,7 @@ where
     let mut pause = RETRY_FIRST;
     loop {
         match attempt().await {
-            Err(StoreError::Database(error)) if Instant::now() < deadline => {
+            Err(StoreError::Database(error)) if Instant::now() < deadline && !shared.is_stopping() => {
                 tracing::warn!("the database failed, trying again: {error}");
                 sleep(pause).await;
                 pause = (2 * pause).min(RETRY_LONGEST);
