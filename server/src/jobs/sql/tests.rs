@@ -9,7 +9,7 @@ use adaptarm_core::scenario::{Scenario, Scheme};
 use std::time::Duration;
 use tempfile::TempDir;
 
-const LEASE: Duration = Duration::from_secs(60);
+const LEASE: Duration = Duration::from_mins(1);
 const NO_LEASE: Duration = Duration::ZERO;
 
 struct Lab {
