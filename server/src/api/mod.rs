@@ -52,20 +52,26 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
         let query = axum::extract::Query::from_request_parts(parts, state).await;
         query
             .map(|axum::extract::Query(query)| Self(query))
-            .map_err(|error| Problem::status(StatusCode::BAD_REQUEST, document::brief(&error.body_text())))
+            .map_err(|error| Problem::status(StatusCode::BAD_REQUEST, query_error(&error.body_text())))
     }
 }
 
-/// The name in a request's path.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Name(pub String);
+/// What the framework says of a query, in this house's words.
+fn query_error(said: &str) -> String {
+    let said = said.strip_prefix("Failed to deserialize query string: ").unwrap_or(said);
+    document::brief(&format!("query: {}", said.replacen("field", "parameter", 1)))
+}
 
-impl<S: Send + Sync> FromRequestParts<S> for Name {
+/// The name in a request's path, or several as a tuple.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Name<T = String>(pub T);
+
+impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Name<T> {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
         let name = Path::from_request_parts(parts, state).await;
-        // All that a string can fail at.
+        // All that strings can fail at.
         let detail = "the path, with its percent-encoding undone, is not UTF-8 text";
         name.map(|Path(name)| Self(name)).map_err(|error| Problem::status(error.status(), detail))
     }

@@ -14,7 +14,7 @@ use crate::state::AppState;
 use adaptarm_core::recording::Recording;
 use adaptarm_core::scenario::Report;
 use axum::body::{Body, Bytes};
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::Response;
 use futures_util::{Stream, stream};
@@ -177,7 +177,7 @@ pub(super) struct FigureQuery {
 pub(super) async fn figure(
     State(state): State<AppState>,
     Reader(owner): Reader,
-    Path((id, name)): Path<(String, String)>,
+    Name((id, name)): Name<(String, String)>,
     Query(query): Query<FigureQuery>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {

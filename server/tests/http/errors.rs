@@ -19,7 +19,7 @@ async fn unknown_paths() {
     }
     let problem = app.get("/api/v1/presets/nonsense").await.problem(404, "/problems/http");
     assert_eq!(problem["detail"], r#"there is no preset "nonsense""#);
-    for path in ["/api/v1/presets/%ff", "/api/v1/jobs/%ff/result"] {
+    for path in ["/api/v1/presets/%ff", "/api/v1/jobs/%ff/result", "/api/v1/jobs/x/result/figures/%ff"] {
         let problem = app.get(path).await.problem(400, "/problems/http");
         assert_eq!(problem["detail"], "the path, with its percent-encoding undone, is not UTF-8 text");
     }
