@@ -98,4 +98,3 @@ CREATE TABLE token (
     revoked_at BIGINT,
     last_used_at BIGINT
 );
-CREATE INDEX token_of_owner ON token (owner);

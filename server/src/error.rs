@@ -8,7 +8,7 @@ use crate::document::DocumentError;
 use crate::jobs::StudyError;
 use adaptarm_core::scenario::ScenarioError;
 use axum::http::StatusCode;
-use axum::http::header::{CONTENT_LENGTH, CONTENT_TYPE, HeaderValue, RETRY_AFTER, WWW_AUTHENTICATE};
+use axum::http::header::{CONTENT_ENCODING, CONTENT_LENGTH, CONTENT_TYPE, HeaderValue, RETRY_AFTER, WWW_AUTHENTICATE};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -143,6 +143,8 @@ pub fn render(response: Response, request_id: Option<&str>) -> Response {
         .unwrap_or_else(|| Problem::status(parts.status, explanation(parts.status)));
     problem.instance = request_id.map(|id| format!("urn:uuid:{id}"));
     parts.headers.remove(CONTENT_LENGTH);
+    // What is written here is not compressed, whatever the answer was before.
+    parts.headers.remove(CONTENT_ENCODING);
     parts.headers.insert(CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
     if let Some(seconds) = problem.retry_after_s {
         parts.headers.insert(RETRY_AFTER, HeaderValue::from(seconds));

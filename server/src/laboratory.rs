@@ -91,5 +91,13 @@ fn lock(data: &Path) -> anyhow::Result<File> {
 }
 
 fn make_folder(data: &Path) -> anyhow::Result<()> {
-    std::fs::create_dir_all(data).with_context(|| format!("cannot make the data folder {}", data.display()))
+    make_private(data).with_context(|| format!("cannot make the data folder {}", data.display()))
+}
+
+/// Makes a folder that only its owner can look into, if it does not exist: the database holds webhooks' secrets.
+fn make_private(folder: &Path) -> std::io::Result<()> {
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(folder)
 }

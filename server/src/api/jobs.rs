@@ -130,7 +130,7 @@ pub struct JobView {
     /// Why it failed or was canceled.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// Most often that any part of it was taken up; more than 1 where work was interrupted.
+    /// Most often that any part of it was taken up: more than 1 where work was interrupted or let others have their turn.
     pub attempts: i64,
     /// Whether it was answered from results of earlier jobs, without computing anything.
     pub cached: bool,

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::options::StorageOptions;
 use crate::jobs::collect_garbage;
-use crate::laboratory::Laboratory;
+use crate::laboratory::{Laboratory, data_folder};
 use crate::stdout::print;
 use clap::Args;
 
@@ -22,6 +22,16 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let config = arguments.storage.load(Vec::new())?.config;
+    if config.database.is_none() && !data_folder(&config).join("adaptarm.sqlite3").is_file() {
+        let data = data_folder(&config);
+        return Err(Failure::input(format!(
+            "--data {}: there is no database of adaptarm in this folder",
+            data.display()
+        )));
+    }
+    if config.database.is_some() && config.results.is_none() {
+        return Err(Failure::input("with --database, name by --results where its results are"));
+    }
     super::runtime()?.block_on(async {
         let laboratory = Laboratory::open(&config).await.map_err(Failure::chain)?;
         let Laboratory { store, queue, results, .. } = &laboratory;

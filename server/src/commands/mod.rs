@@ -111,7 +111,14 @@ impl Failure {
 
     /// The same, with the whole chain of causes on one line.
     pub fn chain(error: impl Into<anyhow::Error>) -> Self {
-        Self::system(format!("{:#}", error.into()))
+        let mut told = String::new();
+        for cause in error.into().chain().map(ToString::to_string) {
+            // Many errors repeat what caused them.
+            if !told.contains(&cause) {
+                told = if told.is_empty() { cause } else { format!("{told}: {cause}") };
+            }
+        }
+        Self::system(told)
     }
 
     /// What was asked makes no sense.

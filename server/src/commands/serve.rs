@@ -6,7 +6,7 @@ use super::shutdown::Shutdown;
 use crate::config::{Config, Retention};
 use crate::guard::Hosts;
 use crate::jobs::{JobStore, Queue, collect_garbage};
-use crate::laboratory::Laboratory;
+use crate::laboratory::{Laboratory, data_folder};
 use crate::results::Results;
 use crate::state::AppState;
 use crate::stdout::print;
@@ -81,6 +81,16 @@ async fn serve(config: &Config) -> Result<(), Failure> {
              `adaptarm token create --owner NAME`, with the same --data or --database, makes one"
         );
     }
+    if config.database.is_some() && config.results.is_none() {
+        tracing::warn!("results are kept on this machine alone; workers and other servers need --results in common");
+    }
+    tracing::info!(
+        version = env!("CARGO_PKG_VERSION"),
+        data = %data_folder(config).display(),
+        database = config.database.as_ref().map_or_else(|| "in the data folder".to_owned(), ToString::to_string),
+        threads = config.thread_count(),
+        "serving"
+    );
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
     let stop = || {
         state.drain();

@@ -139,7 +139,7 @@ section! {
 }
 
 section! {
-    /// Messages to other servers when a job ends.
+    /// Messages to other servers when a job changes its state.
     Webhooks ["webhooks"] {
         /// Receivers allowed although their addresses are not public: host names, and networks such as 10.0.0.0/8.
         allow: Vec<String> = Vec::new(), Rule::list(check_receiver);
@@ -151,7 +151,7 @@ section! {
 }
 
 /// What is logged where nobody says otherwise; the page's files would be listed one by one.
-const DEFAULT_FILTER: &str = "info,memory_serve=warn";
+const DEFAULT_FILTER: &str = "info,memory_serve=warn,apalis_core=warn,sqlx=warn";
 
 impl Config {
     /// Threads that simulate.
@@ -206,25 +206,5 @@ impl Webhooks {
     }
 }
 
-/// Bounds on what is held in memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Capacity {
-    /// Jobs waiting or running; one more is refused.
-    pub unfinished: usize,
-    /// Finished jobs that can still be read; the oldest makes room.
-    pub finished: usize,
-    /// Recordings of finished jobs that can still be read, bytes; the oldest make room.
-    pub recording_bytes: usize,
-}
-
-impl Default for Capacity {
-    fn default() -> Self {
-        Self { unfinished: 64, finished: 256, recording_bytes: 256 << 20 }
-    }
-}
-
-/// Largest document read from a file, standard input or a request body, bytes.
+/// Largest document read from a file or standard input, bytes; requests have a limit of their own.
 pub const DOCUMENT_BYTES: usize = 1 << 20;
-
-/// Longest time to read a request's body and answer it.
-pub const REQUEST_TIMEOUT: Duration = Duration::from_secs(30);

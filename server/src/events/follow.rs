@@ -88,6 +88,10 @@ impl Follower {
             }
             if self.behind {
                 self.catch_up().await;
+                if self.pending.is_empty() && !self.behind {
+                    // The job is being deleted; the hub will say so in a moment.
+                    self.wait().await;
+                }
                 continue;
             }
             let sight = self.sight.borrow_and_update().clone();

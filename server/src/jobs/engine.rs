@@ -70,21 +70,6 @@ impl Engine {
         Ok(Self { shared: Arc::new(shared) })
     }
 
-    /// Where its jobs are kept.
-    pub fn store(&self) -> &dyn JobStore {
-        &*self.shared.store
-    }
-
-    /// Where its results are kept.
-    pub fn results(&self) -> &Results {
-        &self.shared.results
-    }
-
-    /// What it keeps to.
-    pub fn settings(&self) -> &EngineSettings {
-        &self.shared.settings
-    }
-
     /// Accepts a job; it runs when its turn comes.
     pub async fn submit(&self, job: NewJob) -> Result<Submitted, StoreError> {
         self.shared.store.submit(job, &self.shared.settings.limits).await

@@ -38,7 +38,8 @@ enum Stopped {
 /// Works on a shard until it is done or must be let go.
 pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
     let began = Instant::now();
-    let mut worker = Worker { shared, claim, counted: claim.steps_done, since_tick: Instant::now() };
+    let now = Instant::now();
+    let mut worker = Worker { shared, claim, counted: claim.steps_done, since_tick: now, told: now };
     match worker.work().await {
         Ok(()) => {}
         Err(Stopped::Lost) => {
@@ -68,12 +69,18 @@ struct Worker<'a> {
     claim: &'a Claim,
     /// Steps of the scenario under way that the store has counted.
     counted: i64,
+    /// Since when computing time has not been reported.
     since_tick: Instant,
+    /// When the store last heard that this shard is alive.
+    told: Instant,
 }
 
 impl Worker<'_> {
     async fn work(&mut self) -> Result<(), Stopped> {
-        let mut checkpoint = match self.shared.results.load(self.claim.job, self.claim.shard).await {
+        let began = Instant::now();
+        let results = &self.shared.results;
+        let loaded = self.alive(results.load(self.claim.job, self.claim.shard)).await?;
+        let mut checkpoint = match loaded {
             Ok(checkpoint) => checkpoint,
             Err(error) => {
                 tracing::warn!(job = %self.claim.job, "cannot use a checkpoint, only time is lost: {error}");
@@ -85,6 +92,16 @@ impl Worker<'_> {
             let from = checkpoint.take_if(|checkpoint| checkpoint.n == *n).map(|checkpoint| checkpoint.snapshot);
             let finished = self.scenario(*n, document, from, &mut saved).await?;
             self.deliver(*n, *finished).await?;
+            let slice = self.shared.settings.slice;
+            // Short scenarios one after another are a long time too.
+            if self.told.elapsed() >= self.shared.settings.heartbeat {
+                match self.tick(0, true, began.elapsed() >= slice).await {
+                    Ok(Order::Stop) if !self.is_last(*n) => return Err(Stopped::Lost),
+                    Ok(Order::Yield) if !self.is_last(*n) => return Err(Stopped::Yielded),
+                    Ok(_) => {}
+                    Err(error) => tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}"),
+                }
+            }
         }
         if saved && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await {
             tracing::warn!(job = %self.claim.job, "cannot remove a checkpoint that is done with: {error}");
@@ -119,8 +136,10 @@ impl Worker<'_> {
                 return Err(Stopped::Lost);
             }
             let began = Instant::now();
-            *saved |= self.save(bytes, &control).await?;
-            if order == Order::Yield {
+            let kept = self.save(bytes, &control).await?;
+            *saved |= kept;
+            // Letting go of what could not be saved would only lose it; at the end there is no choice.
+            if order == Order::Yield && (kept || self.shared.is_stopping()) {
                 return Err(Stopped::Yielded);
             }
             interval = self.shared.settings.slice.max(began.elapsed() * CHECKPOINT_SHARE);
@@ -174,12 +193,35 @@ impl Worker<'_> {
         let settings = &self.shared.settings;
         let order = self.shared.store.tick(self.claim, tick, settings.lease, &settings.limits).await?;
         self.counted = tick.steps_done;
+        self.told = Instant::now();
         Ok(order)
+    }
+
+    /// Waits for the result store for as long as it takes, telling meanwhile that this shard is alive: its lease must not
+    /// run out because a disk or a network is slow.
+    async fn alive<T>(&mut self, work: impl Future<Output = T>) -> Result<T, Stopped> {
+        let mut work = std::pin::pin!(work);
+        loop {
+            if let Ok(done) = timeout(self.shared.settings.heartbeat, &mut work).await {
+                return Ok(done);
+            }
+            match self.tick(self.counted as u64, false, false).await {
+                Ok(Order::Stop) => return Err(Stopped::Lost),
+                Ok(_) => {}
+                Err(error) => tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}"),
+            }
+        }
+    }
+
+    /// Whether this is the shard's last scenario.
+    fn is_last(&self, n: i64) -> bool {
+        self.claim.scenarios.last().is_some_and(|(last, _)| *last == n)
     }
 
     /// Saves how far the shard is. A full disk is no reason to stop computing: the result will show whether there is room.
     async fn save(&mut self, bytes: Bytes, control: &Control) -> Result<bool, Stopped> {
-        let kept = self.shared.results.save(self.claim.job, self.claim.shard, bytes).await;
+        let results = &self.shared.results;
+        let kept = self.alive(results.save(self.claim.job, self.claim.shard, bytes)).await?;
         if let Err(error) = &kept {
             tracing::warn!(job = %self.claim.job, shard = self.claim.shard, "cannot save a checkpoint: {error}");
         }
@@ -195,23 +237,19 @@ impl Worker<'_> {
 
     /// Stores a scenario's result, then tells that it is there.
     async fn deliver(&mut self, n: i64, Finished { report, encoded, simulated_s }: Finished) -> Result<(), Stopped> {
-        let deadline = Instant::now() + RETRY_FOR;
+        let results = &self.shared.results;
         let mut pause = RETRY_FIRST;
-        while let Err(error) = self.shared.results.put(&report, &encoded).await {
-            let passing = matches!(error, ResultError::Unavailable(_));
-            if passing && self.shared.is_stopping() {
-                return Err(Stopped::Yielded);
-            }
-            let passing = passing && Instant::now() < deadline;
-            if !passing {
+        // A store that cannot be reached is waited for, however long: nothing that was computed is given up.
+        while let Err(error) = self.alive(results.put(&report, &encoded)).await? {
+            if !matches!(error, ResultError::Unavailable(_)) {
                 return Err(Stopped::Failed(FailureReason::Storage, format!("scenario {n}: {error}")));
             }
-            tracing::warn!(job = %self.claim.job, "scenario {n}: {error}; trying again");
-            sleep(pause).await;
-            pause = (2 * pause).min(RETRY_LONGEST);
-            if matches!(self.tick(self.counted as u64, false, false).await, Ok(Order::Stop)) {
-                return Err(Stopped::Lost);
+            if self.shared.is_stopping() {
+                return Err(Stopped::Yielded);
             }
+            tracing::warn!(job = %self.claim.job, "scenario {n}: {error}; trying again");
+            self.alive(sleep(pause)).await?;
+            pause = (2 * pause).min(RETRY_LONGEST);
         }
         metrics::result_stored(encoded.bytes.len() as u64);
         metrics::simulated(simulated_s, report.steps);
@@ -223,7 +261,7 @@ impl Worker<'_> {
         match delivered.map_err(Stopped::Unreachable)? {
             super::Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
             _ if self.claim.suspect || self.must_let_go() => {
-                if self.claim.scenarios.last().is_some_and(|(last, _)| *last == n) {
+                if self.is_last(n) {
                     Ok(())
                 } else {
                     Err(Stopped::Yielded)

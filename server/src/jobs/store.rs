@@ -297,8 +297,11 @@ pub trait JobStore: Send + Sync + 'static {
     /// Results that no job refers to and that were stored before this moment: hashes and core versions.
     async fn unused_results(&self, before: Timestamp, limit: i64) -> Result<Vec<(String, String)>, StoreError>;
 
-    /// Forgets a result; its object is the caller's to remove.
-    async fn forget_result(&self, hash: &str, core_version: &str) -> Result<(), StoreError>;
+    /// Forgets a result that no job refers to; whether it did. Its object is the caller's to remove.
+    async fn forget_unused_result(&self, hash: &str, core_version: &str) -> Result<bool, StoreError>;
+
+    /// Forgets a result whose samples are lost: whoever asks for the scenario again gets it computed again.
+    async fn forget_lost_result(&self, hash: &str, core_version: &str) -> Result<(), StoreError>;
 
     /// Whether this shard still exists: its checkpoint is of use.
     async fn has_shard(&self, job: Uuid, shard: i64) -> Result<bool, StoreError>;

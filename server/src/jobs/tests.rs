@@ -135,6 +135,27 @@ async fn what_nobody_needs_is_forgotten_and_nothing_else() {
     working.await.unwrap();
 }
 
+#[tokio::test(flavor = "multi_thread")]
+async fn a_ticket_that_was_used_is_done_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let lab = open(folder.path()).await;
+    let engine = lab.engine.clone();
+    let working = tokio::spawn(async move { engine.run().await });
+    for seed in 0..5 {
+        let id = submit(&lab, job("ana", &[scenario(Scheme::SlotineLi, seed, 0.1)])).await;
+        end(&lab, "ana", id).await;
+    }
+    // A ticket that still counts as under way would be handed out again after a restart.
+    let (mut done, deadline) = (0, Instant::now() + Duration::from_secs(20));
+    while done < 5 {
+        assert!(Instant::now() < deadline, "{done} of 5");
+        done += lab.queue.sweep().await.unwrap();
+        sleep(Duration::from_millis(50)).await;
+    }
+    lab.engine.stop();
+    working.await.unwrap();
+}
+
 #[tokio::test]
 async fn a_data_folder_belongs_to_one_process() {
     let folder = tempfile::tempdir().unwrap();

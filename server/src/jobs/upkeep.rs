@@ -28,15 +28,17 @@ pub async fn collect_garbage(
 ) -> anyhow::Result<Forgotten> {
     let mut forgotten =
         Forgotten { jobs: store.forget_jobs(days_ago(retention.finished_jobs_days)).await?, ..Forgotten::default() };
+    let before = days_ago(retention.results_days);
     loop {
-        let unused = store.unused_results(days_ago(retention.results_days), BATCH).await?;
+        let (unused, already) = (store.unused_results(before, BATCH).await?, forgotten.results);
         for (hash, core_version) in &unused {
-            // First the row: a row without samples would promise what is not there.
-            store.forget_result(hash, core_version).await?;
-            results.remove(hash, core_version).await?;
-            forgotten.results += 1;
+            // First the row: a row without samples would promise what is not there. A job may have come for it meanwhile.
+            if store.forget_unused_result(hash, core_version).await? {
+                results.remove(hash, core_version, before).await?;
+                forgotten.results += 1;
+            }
         }
-        if unused.is_empty() {
+        if forgotten.results == already {
             break;
         }
     }

@@ -16,13 +16,18 @@ use adaptarm_core::scenario::Report;
 use anyhow::Context;
 use bytes::Bytes;
 use futures_util::{StreamExt, TryStreamExt};
+use jiff::Timestamp;
 use object_store::aws::AmazonS3Builder;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path;
 use object_store::prefix::PrefixStore;
-use object_store::{ObjectStore, ObjectStoreExt};
+use object_store::{ObjectStore, ObjectStoreExt, RetryConfig};
 use std::sync::Arc;
+use std::time::Duration;
 use uuid::Uuid;
+
+/// For how long a call to S3 tries again by itself.
+const S3_RETRY: Duration = Duration::from_secs(5);
 
 /// A result store; a clone is the same store.
 #[derive(Debug, Clone)]
@@ -64,6 +69,8 @@ impl Results {
                 crate::webhooks::install_crypto_provider();
                 let s3 = AmazonS3Builder::from_env()
                     .with_bucket_name(bucket)
+                    // Whoever asks tries again by itself, and wants to hear of trouble before its lease runs out.
+                    .with_retry(RetryConfig { max_retries: 2, retry_timeout: S3_RETRY, ..RetryConfig::default() })
                     .build()
                     .with_context(|| format!("cannot use the bucket {bucket}"))?;
                 if prefix.is_empty() { Arc::new(s3) } else { Arc::new(PrefixStore::new(s3, prefix.as_str())) }
@@ -98,9 +105,14 @@ impl Results {
         }
     }
 
-    /// Forgets the samples of a run.
-    pub async fn remove(&self, hash: &str, core_version: &str) -> Result<(), ResultError> {
-        gone(self.objects.delete(&recording_path(hash, core_version)).await)
+    /// Forgets the samples of a run, unless they were stored anew since `before`: someone needs them again.
+    pub async fn remove(&self, hash: &str, core_version: &str, before: Timestamp) -> Result<(), ResultError> {
+        let path = recording_path(hash, core_version);
+        match self.objects.head(&path).await {
+            Ok(found) if found.last_modified.timestamp() >= before.as_second() => Ok(()),
+            Ok(_) => gone(self.objects.delete(&path).await),
+            Err(error) => gone(Err(error)),
+        }
     }
 
     /// Keeps how far a shard has come, in place of what was kept before.

@@ -9,6 +9,7 @@ use crate::error::Problem;
 use crate::figures::FigureRequest;
 use crate::jobs::{Job, JobState, ScenarioRow, StoreError};
 use crate::openapi::StudyResult;
+use crate::results::ResultError;
 use crate::series::{SeriesQuery, SeriesRequest};
 use crate::state::AppState;
 use adaptarm_core::recording::Recording;
@@ -210,5 +211,10 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
 async fn samples(state: &AppState, row: &ScenarioRow) -> Result<Arc<Recording>, Problem> {
     let (version, checksum) =
         (row.core_version.as_deref().unwrap_or_default(), row.checksum.as_deref().unwrap_or_default());
-    state.results.get(&row.hash, version, checksum).await.map(Arc::new).map_err(|error| stored(&error))
+    let samples = state.results.get(&row.hash, version, checksum).await;
+    if let Err(ResultError::Missing(_) | ResultError::Damaged(_)) = &samples {
+        // So that the same scenario is computed again, as the answer says.
+        state.store.forget_lost_result(&row.hash, version).await.map_err(database)?;
+    }
+    samples.map(Arc::new).map_err(|error| stored(&error))
 }

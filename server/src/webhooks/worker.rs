@@ -6,7 +6,7 @@ use crate::jobs::{Handler, Queue, WEBHOOKS};
 use crate::metrics;
 use std::sync::Arc;
 use std::time::Duration;
-use tokio::sync::watch;
+use tokio::sync::{Semaphore, watch};
 use tokio::time::timeout;
 use uuid::Uuid;
 
@@ -23,10 +23,12 @@ const PUSH_AGAIN: Duration = Duration::from_secs(5);
 pub async fn run(queue: Arc<dyn Queue>, sender: Sender, mut stop: watch::Receiver<bool>) {
     let worker = format!("webhooks-{}-{}", std::process::id(), Uuid::now_v7());
     let handler: Handler = {
-        let queue = queue.clone();
+        let (queue, places) = (queue.clone(), Arc::new(Semaphore::new(AT_A_TIME)));
         Arc::new(move |payload| {
-            let (queue, sender) = (queue.clone(), sender.clone());
+            let (queue, sender, places) = (queue.clone(), sender.clone(), places.clone());
             Box::pin(async move {
+                // It is never closed, and a failure to wait is no reason not to call.
+                let _place = places.acquire().await;
                 match serde_json::from_value(payload) {
                     Ok(delivery) => attempt(&*queue, &sender, delivery).await,
                     Err(error) => tracing::error!("the queue holds a call that cannot be read: {error}"),

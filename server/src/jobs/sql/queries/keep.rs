@@ -1,7 +1,7 @@
 //! Forgetting: deleted jobs, old jobs, results that nobody refers to.
 
 use super::work::cancel;
-use super::{Pool, begin};
+use super::{Pool, begin, while_forgetting};
 use crate::jobs::StoreError;
 use jiff::Timestamp;
 use uuid::Uuid;
@@ -20,8 +20,8 @@ pub(super) async fn delete(pool: &Pool, owner: &str, id: Uuid) -> Result<bool, S
     Ok(deleted.rows_affected() > 0)
 }
 
-/// Jobs forgotten in one transaction.
-const BATCH: i64 = 100;
+/// Jobs forgotten in one transaction: each may have ten thousand scenarios, and others want to write too.
+const BATCH: i64 = 1;
 
 /// Forgets jobs that ended before this moment; how many.
 pub(super) async fn forget_jobs(pool: &Pool, before: Timestamp) -> Result<u64, StoreError> {
@@ -59,8 +59,24 @@ pub(super) async fn unused_results(
     Ok(rows)
 }
 
-/// Forgets a result.
-pub(super) async fn forget_result(pool: &Pool, hash: &str, core_version: &str) -> Result<(), StoreError> {
+/// Forgets a result that no job refers to; whether it did.
+pub(super) async fn forget_unused_result(pool: &Pool, hash: &str, core_version: &str) -> Result<bool, StoreError> {
+    let mut transaction = begin(pool).await?;
+    while_forgetting(&mut transaction).await?;
+    let done = sqlx::query(
+        "DELETE FROM result WHERE hash = $1 AND core_version = $2 \
+         AND NOT EXISTS (SELECT 1 FROM job_scenario s WHERE s.hash = result.hash)",
+    )
+    .bind(hash)
+    .bind(core_version)
+    .execute(&mut *transaction)
+    .await?;
+    transaction.commit().await?;
+    Ok(done.rows_affected() > 0)
+}
+
+/// Forgets a result whose samples are lost.
+pub(super) async fn forget_lost_result(pool: &Pool, hash: &str, core_version: &str) -> Result<(), StoreError> {
     sqlx::query("DELETE FROM result WHERE hash = $1 AND core_version = $2")
         .bind(hash)
         .bind(core_version)

@@ -9,7 +9,10 @@ mod submit;
 mod tokens;
 mod work;
 
-use super::{Connection, Db, ONE_WRITER, Pool, QueueConfig, SWEEP, begin, now, one_at_a_time, push, storage};
+use super::{
+    Connection, Db, ONE_WRITER, Pool, QueueConfig, SWEEP, begin, now, one_at_a_time, push, storage, while_forgetting,
+    while_submitting,
+};
 use crate::config::Limits;
 use crate::jobs::sql::rows;
 use crate::jobs::{
@@ -152,8 +155,12 @@ impl JobStore for SqlStore {
         keep::unused_results(&self.read, before, limit).await
     }
 
-    async fn forget_result(&self, hash: &str, core_version: &str) -> Result<(), StoreError> {
-        keep::forget_result(&self.write, hash, core_version).await
+    async fn forget_unused_result(&self, hash: &str, core_version: &str) -> Result<bool, StoreError> {
+        keep::forget_unused_result(&self.write, hash, core_version).await
+    }
+
+    async fn forget_lost_result(&self, hash: &str, core_version: &str) -> Result<(), StoreError> {
+        keep::forget_lost_result(&self.write, hash, core_version).await
     }
 
     async fn has_shard(&self, job: Uuid, shard: i64) -> Result<bool, StoreError> {

@@ -68,8 +68,8 @@ fn hand_out(
         .batch_size(at_a_time)
         .heartbeat_interval(HEARTBEAT)
         .missed_heartbeats(MISSED_HEARTBEATS)
-        .lock_tasks(false)
-        .persist_results(false);
+        // A task is taken by being fetched; only that it is done must still be noted.
+        .lock_tasks(false);
     let bell =
         futures_util::stream::unfold(bell, |mut bell| async move { bell.changed().await.ok().map(|()| ((), bell)) });
     let strategy = Strategy::new().stream(Box::pin(bell)).interval(POLL_INTERVAL);

@@ -2,7 +2,7 @@
 
 use super::change::{State, Teller, announce, record, tell, wake};
 use super::rows::{JobRow, job_columns};
-use super::{Connection, Db, Pool, begin, now};
+use super::{Connection, Db, Pool, begin, now, while_submitting};
 use crate::config::Limits;
 use crate::jobs::plan::{Shard, plan};
 use crate::jobs::store::{EventKind, summary};
@@ -83,6 +83,7 @@ async fn alone(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, 
 
 /// Accepts a job as part of a transaction. Every refusal comes before the first thing written.
 async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
+    while_submitting(connection, &job.owner).await?;
     if let Some(job) = repeated(connection, job).await? {
         return Ok(Submitted { job, repeated: true });
     }
@@ -134,7 +135,8 @@ async fn repeated(connection: &mut Connection, job: &NewJob) -> Result<Option<Jo
 
 async fn check_quotas(connection: &mut Connection, owner: &str, steps: u64, limits: &Limits) -> Result<(), StoreError> {
     let (jobs, waiting, bytes): (i64, i64, i64) = sqlx::query_as(
-        "SELECT COUNT(*), CAST(COALESCE(SUM(steps_total - steps_done), 0) AS BIGINT), \
+        "SELECT COUNT(*), \
+         CAST(COALESCE(SUM(CASE WHEN steps_total > steps_done THEN steps_total - steps_done ELSE 0 END), 0) AS BIGINT), \
          (SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM job WHERE owner = $1) \
          FROM job WHERE owner = $1 AND state IN ('queued', 'running')",
     )
@@ -172,8 +174,15 @@ async fn known_reports<'a>(
         query.push(")");
         for row in query.build().fetch_all(&mut *connection).await? {
             let (hash, report): (String, String) = (row.try_get("hash")?, row.try_get("report")?);
-            let report: Report = serde_json::from_str(&report)
-                .map_err(|error| StoreError::Damaged(format!("a report of {hash} that cannot be read: {error}")))?;
+            let report: Report = match serde_json::from_str(&report) {
+                Ok(report) => report,
+                Err(error) => {
+                    tracing::warn!(
+                        "the stored report of scenario {hash} cannot be read and is computed again: {error}"
+                    );
+                    continue;
+                }
+            };
             if let Some(scenario) = scenarios.iter().find(|scenario| scenario.hash == hash) {
                 known.insert(scenario.hash.as_str(), report);
             }
