@@ -109,7 +109,7 @@ impl Results {
     pub async fn remove(&self, hash: &str, core_version: &str, before: Timestamp) -> Result<(), ResultError> {
         let path = recording_path(hash, core_version);
         match self.objects.head(&path).await {
-            Ok(found) if found.last_modified.timestamp() >= before.as_second() => Ok(()),
+            Ok(found) if found.last_modified.timestamp_micros() > before.as_microsecond() => Ok(()),
             Ok(_) => gone(self.objects.delete(&path).await),
             Err(error) => gone(Err(error)),
         }
