@@ -12,7 +12,7 @@ use anyhow::Context;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
-use tokio::sync::{RwLock, Semaphore, watch};
+use tokio::sync::{Notify, RwLock, Semaphore, watch};
 use tokio::task::JoinSet;
 use tokio::time::{interval, sleep, timeout};
 use uuid::Uuid;
@@ -61,6 +61,7 @@ impl Engine {
             worker: format!("{}-{}", std::process::id(), Uuid::now_v7()),
             slots: Arc::new(Semaphore::new(settings.threads)),
             settings,
+            bell: Notify::new(),
             rung: AtomicBool::new(false),
             company: RwLock::default(),
             suspects_waiting: AtomicUsize::new(0),
@@ -81,8 +82,7 @@ impl Engine {
             let _ = self.shared.stopping.subscribe().wait_for(|stop| *stop).await;
             return;
         }
-        let (wake, mut woken) = tokio::sync::mpsc::unbounded_channel();
-        let listener = tokio::spawn(listen(self.shared.clone(), wake));
+        let listener = tokio::spawn(listen(self.shared.clone()));
         let mut stopping = self.shared.stopping.subscribe();
         let mut look = interval(LOOK_INTERVAL);
         let mut slots = JoinSet::new();
@@ -90,7 +90,7 @@ impl Engine {
             tokio::select! {
                 _ = stopping.wait_for(|stop| *stop) => break,
                 _ = look.tick() => {}
-                Some(()) = woken.recv() => {}
+                () = self.shared.bell.notified() => {}
                 Some(_) = slots.join_next() => continue,
             }
             match self.shared.slots.clone().try_acquire_owned() {
@@ -124,10 +124,10 @@ fn give_way() {
 }
 
 /// Turns tickets into wake-ups, for as long as this process works.
-async fn listen(shared: Arc<Shared>, wake: tokio::sync::mpsc::UnboundedSender<()>) {
+async fn listen(shared: Arc<Shared>) {
+    let rung = shared.clone();
     let handler: Handler = Arc::new(move |_| {
-        // Nobody listens any more where the engine has stopped.
-        let _ = wake.send(());
+        rung.bell.notify_one();
         Box::pin(std::future::ready(()))
     });
     while !shared.is_stopping() {
@@ -157,10 +157,15 @@ async fn drain(shared: &Arc<Shared>) {
         };
         match claim {
             Some(claim) if claim.suspect => {
+                shared.bell.notify_one();
                 drop(in_company);
                 alone(shared, &claim).await;
             }
-            Some(claim) => begin(shared, &claim).await,
+            Some(claim) => {
+                // Where there was one shard there may be more: a neighbour should look.
+                shared.bell.notify_one();
+                begin(shared, &claim).await;
+            }
             // Someone rang while this slot was busy.
             None if shared.rung.swap(false, Ordering::AcqRel) => {}
             None => return,

@@ -7,7 +7,7 @@ use rayon::ThreadPool;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
-use tokio::sync::{RwLock, Semaphore, watch};
+use tokio::sync::{Notify, RwLock, Semaphore, watch};
 
 /// What an engine keeps to.
 #[derive(Debug, Clone)]
@@ -47,6 +47,8 @@ pub(super) struct Shared {
     /// Name of this process in claims.
     pub(super) worker: String,
     pub(super) slots: Arc<Semaphore>,
+    /// Rung when there may be work.
+    pub(super) bell: Notify,
     /// Told of work while every slot was taken.
     pub(super) rung: AtomicBool,
     /// Held by all for ordinary shards, by one for a suspect.

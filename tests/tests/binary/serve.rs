@@ -199,6 +199,7 @@ fn ctrl_c_ends_an_idle_server_at_once() -> Result<()> {
 #[test]
 fn what_cannot_be_served_is_said_in_one_line() -> Result<()> {
     let server = Server::start(&[])?;
+    let elsewhere = tempfile::tempdir()?;
     let taken = server.url.trim_start_matches("http://");
     for (arguments, words) in [
         (["--bind", taken], "Address already in use"),
@@ -207,7 +208,10 @@ fn what_cannot_be_served_is_said_in_one_line() -> Result<()> {
             "another adaptarm uses the data folder",
         ),
     ] {
-        let output = Command::new(binary()?).args(["serve", "--bind", "127.0.0.1:0"]).args(arguments).output()?;
+        let mut command = Command::new(binary()?);
+        // A folder of its own, and any free port, unless that is what is tried.
+        command.arg("serve").args(arguments).current_dir(&elsewhere).env("ADAPTARM_BIND", "127.0.0.1:0");
+        let output = command.output()?;
         let line = String::from_utf8(output.stderr)?;
         assert_eq!(output.status.code(), Some(1), "{line}");
         assert!(line.contains(words) && line.contains(arguments[1]) && line.lines().count() == 1, "{line}");

@@ -13,8 +13,8 @@ use jiff::Timestamp;
 use serde_json::json;
 use uuid::Uuid;
 
-/// Tickets pushed at a time: enough to wake every thread of a good many machines.
-const MOST_TICKETS: usize = 64;
+/// Tickets pushed at a time: each wakes one thread somewhere, which wakes its neighbours as long as there is work.
+const MOST_TICKETS: usize = 4;
 
 /// A state to change to.
 #[derive(Debug, Clone, Copy)]
@@ -123,6 +123,9 @@ pub(super) async fn record(
 
 /// Wakes as many workers as there are shards, in reason. What a ticket brings them to is decided by the tables.
 pub(super) async fn wake(connection: &mut Connection, shards: usize) -> Result<(), StoreError> {
+    if shards == 0 {
+        return Ok(());
+    }
     let ticket = || TaskBuilder::new(b"null".to_vec()).max_attempts(1).build();
     push(connection, TICKETS, std::iter::repeat_with(ticket).take(shards.min(MOST_TICKETS)).collect()).await
 }

@@ -10,9 +10,13 @@ use serde_json::Value;
 use std::future::Future;
 use std::time::Duration;
 use tokio::sync::watch;
+use tokio::time::sleep;
 
 /// How often the queue is looked at even if nobody rang: other machines ring only their own bell.
 const POLL_INTERVAL: Duration = Duration::from_millis(500);
+
+/// How long to listen for more rings before looking.
+const RING_PAUSE: Duration = Duration::from_millis(20);
 
 /// Time between a worker's signs of life, and how many may be missing: then its tasks are handed out again.
 const HEARTBEAT: Duration = Duration::from_secs(10);
@@ -70,8 +74,13 @@ fn hand_out(
         .missed_heartbeats(MISSED_HEARTBEATS)
         // A task is taken by being fetched; only that it is done must still be noted.
         .lock_tasks(false);
-    let bell =
-        futures_util::stream::unfold(bell, |mut bell| async move { bell.changed().await.ok().map(|()| ((), bell)) });
+    let bell = futures_util::stream::unfold(bell, |mut bell| async move {
+        bell.changed().await.ok()?;
+        // Many rings in a moment are one look.
+        sleep(RING_PAUSE).await;
+        bell.mark_unchanged();
+        Some(((), bell))
+    });
     let strategy = Strategy::new().stream(Box::pin(bell)).interval(POLL_INTERVAL);
     let worker = WorkerBuilder::new(worker)
         .backend(PollWith::new(storage(pool, config), strategy))

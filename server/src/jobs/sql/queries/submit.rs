@@ -49,14 +49,18 @@ pub(super) async fn accept_together(pool: Pool, mut waiting: mpsc::Receiver<Wait
 /// Accepts these jobs in one transaction. What refuses one of them leaves no trace of it, and the others go on.
 async fn together(pool: &Pool, batch: &[Waiting]) -> Result<Vec<Result<Submitted, StoreError>>, StoreError> {
     let mut transaction = begin(pool).await?;
-    let mut accepted = Vec::with_capacity(batch.len());
+    let (mut accepted, mut shards) = (Vec::with_capacity(batch.len()), 0);
     for Waiting { job, limits, .. } in batch {
         match attempt(&mut transaction, job, limits).await {
-            Ok(submitted) => accepted.push(Ok(submitted)),
+            Ok((submitted, planned)) => {
+                accepted.push(Ok(submitted));
+                shards += planned;
+            }
             Err(refusal @ (StoreError::Quota { .. } | StoreError::KeyReused { .. })) => accepted.push(Err(refusal)),
             Err(error) => return Err(error),
         }
     }
+    wake(&mut transaction, shards).await?;
     transaction.commit().await?;
     Ok(accepted)
 }
@@ -76,16 +80,18 @@ fn is_doubled(error: &sqlx::Error) -> bool {
 
 async fn alone(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
     let mut transaction = begin(pool).await?;
-    let submitted = attempt(&mut transaction, job, limits).await?;
+    let (submitted, shards) = attempt(&mut transaction, job, limits).await?;
+    wake(&mut transaction, shards).await?;
     transaction.commit().await?;
     Ok(submitted)
 }
 
-/// Accepts a job as part of a transaction. Every refusal comes before the first thing written.
-async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> Result<Submitted, StoreError> {
+/// Accepts a job as part of a transaction, and says for how many shards to wake someone. Every refusal comes before the
+/// first thing written.
+async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> Result<(Submitted, usize), StoreError> {
     while_submitting(connection, &job.owner).await?;
     if let Some(job) = repeated(connection, job).await? {
-        return Ok(Submitted { job, repeated: true });
+        return Ok((Submitted { job, repeated: true }, 0));
     }
     let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
     check_quotas(connection, &job.owner, steps, limits).await?;
@@ -103,15 +109,14 @@ async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> 
         insert_summaries(connection, id, job, &known).await?;
     }
     if !shards.is_empty() {
-        wake(connection, shards.len()).await?;
-        return Ok(Submitted { job: accepted, repeated: false });
+        return Ok((Submitted { job: accepted, repeated: false }, shards.len()));
     }
     tell(connection, id, State::new(JobState::Succeeded), at).await?;
     let row: JobRow = sqlx::query_as(concat!("SELECT ", job_columns!(), " FROM job WHERE id = $1"))
         .bind(id.to_string())
         .fetch_one(connection)
         .await?;
-    Ok(Submitted { job: Job::try_from(row)?, repeated: false })
+    Ok((Submitted { job: Job::try_from(row)?, repeated: false }, 0))
 }
 
 /// The job that the same request made before.
