@@ -1,6 +1,8 @@
 //! The signature by which a receiver knows that a call is ours, whole and recent.
 //!
-//!     Adaptarm-Signature: t=<unix seconds>,v1=<hex of HMAC-SHA256(secret, "<t>.<body>")>
+//! ```text
+//! Adaptarm-Signature: t=<unix seconds>,v1=<hex of HMAC-SHA256(secret, "<t>.<body>")>
+//! ```
 //!
 //! A receiver computes the same over the body as it arrived, byte for byte, compares in constant time, and refuses old
 //! calls; [`verify`] is the model.
