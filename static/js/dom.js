@@ -1,5 +1,8 @@
 // Building elements without markup in strings.
 
+/** The element of the page with this id. */
+export const byId = (id) => document.getElementById(id);
+
 /** An element with attributes (`on…` functions become listeners, false and null are left out) and children. */
 export function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);

@@ -7,10 +7,11 @@ import { failureOf } from "./wasm.js";
 
 export class Laboratory extends EventTarget {
   #state;
+  #runs;
   #pool = null;
   /** Scheme to the generation of its newest run. */
   #wanted = {};
-  /** Scheme to `{generation, report, elapsed_ms}` or `{generation, failure}`. */
+  /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, or `{generation, failure}`. */
   results = {};
   /** Scheme to progress of the run under way, 0 to 1. */
   progress = {};
@@ -18,9 +19,11 @@ export class Laboratory extends EventTarget {
   /** When the newest generation was asked for, on the clock of `performance.now`. */
   askedAt = 0;
 
-  constructor(state) {
+  /** `runs` receives the samples of each scheme's latest run, under the scheme's name. */
+  constructor(state, runs) {
     super();
     this.#state = state;
+    this.#runs = runs;
   }
 
   /** Uses a pool, whose handlers are this object's methods, and runs everything. */
@@ -74,14 +77,16 @@ export class Laboratory extends EventTarget {
     this.dispatchEvent(new Event("asked"));
   }
 
-  done({ scheme, generation, report, rows, elapsed_ms }) {
-    this.results[scheme] = { generation, report, elapsed_ms };
-    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows, report } }));
+  done({ scheme, generation, scenario, report, rows, elapsed_ms }) {
+    this.results[scheme] = { generation, scenario, report, elapsed_ms };
+    this.#runs.set(scheme, scenario, rows, report.outcome === "completed");
+    this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
   failed({ scheme, generation, message }) {
     this.results[scheme] = { generation, failure: message };
-    this.dispatchEvent(new CustomEvent("result", { detail: { scheme, rows: null } }));
+    this.#runs.remove(scheme);
+    this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
   advanced({ scheme, progress }) {

@@ -1,45 +1,41 @@
-// Puts the page together: loads the module, restores the state, builds the views, starts the workers, wires results to views.
+// Puts the playground together: loads the module, restores the state, builds the views, starts the workers, wires results
+// to views. Each feature is one module that gets `app` and a place on the page.
 
 import "./elements/scheme-card.js";
-import { element, fillTexts } from "./dom.js";
+import { announce } from "./announce.js";
+import { byId, element } from "./dom.js";
 import { formatSeconds } from "./format.js";
 import { Laboratory } from "./laboratory.js";
+import { buildMasthead } from "./masthead.js";
+import { notice } from "./notice.js";
 import { RunPool } from "./pool.js";
 import { State } from "./state.js";
-import { strings } from "./strings.js";
-import { initTheme, isDark } from "./theme.js";
+import { strings } from "./strings/index.js";
+import { isDark, onTheme } from "./theme.js";
+import { Timeline } from "./timeline.js";
+import { buildCompare } from "./views/compare.js";
+import { buildExplain } from "./views/explain.js";
 import { Figures } from "./views/figures.js";
 import { buildGains } from "./views/gains.js";
 import { buildPinned } from "./views/pinned.js";
+import { buildServerRun } from "./views/server-run.js";
 import { buildSetup } from "./views/setup.js";
+import { buildShare } from "./views/share.js";
+import { buildStage } from "./views/stage.js";
 import { buildTables } from "./views/tables.js";
+import { buildTour } from "./views/tour.js";
 import { failureOf, loadModule } from "./wasm.js";
 
-const ANNOUNCE_AFTER_MS = 1000;
 const root = document.documentElement;
-const byId = (id) => document.getElementById(id);
-
-function notice(text, kind) {
-  const box = element(
-    "p",
-    { class: `notice ${kind}` },
-    element("span", {}, text),
-    element("button", { type: "button", class: "quiet", onclick: () => box.remove() }, strings.dismiss),
-  );
-  // One of a kind is enough, however often it happens.
-  byId("notices").querySelector(`.${kind}`)?.remove();
-  byId("notices").append(box);
-}
 
 async function main() {
-  fillTexts(strings);
+  buildMasthead("playground");
   let loaded;
   try {
     loaded = await loadModule();
   } catch (error) {
     root.dataset.state = "failed";
     notice(strings.moduleMissing(failureOf(error).message), "error");
-    initTheme(byId("theme-toggle"), () => {});
     return;
   }
   const { bindings, module } = loaded;
@@ -53,25 +49,33 @@ async function main() {
   if (state.dropped) {
     notice(strings.stateDropped, "warning");
   }
-  build({ bindings, module, description, state, paper });
+  const runs = new bindings.Runs();
+  build({ bindings, module, description, state, paper, runs, timeline: new Timeline(), laboratory: new Laboratory(state, runs) });
 }
 
-function build({ bindings, module, description, state, paper }) {
-  const laboratory = new Laboratory(state);
-  const figures = new Figures(new bindings.Plotter(), description, { signals: byId("figures"), estimates: byId("estimates") });
-  const resetAll = () => laboratory.replace(structuredClone(paper));
-  const showSetup = buildSetup(byId("setup-fields"), { description, state, laboratory, resetAll });
-  const showGains = buildGains(byId("scheme-tabs"), { description, state, laboratory });
-  buildPinned(byId("pinned"), figures);
+/** `app` is what every feature gets: module, description, state, laboratory, runs, timeline and, from here on, figures. */
+function build(app) {
+  const { module, description, state, paper, laboratory, timeline } = app;
+  const figures = new Figures(app, { signals: byId("figures"), estimates: byId("estimates") });
+  app.figures = figures;
+  app.resetAll = () => laboratory.replace(structuredClone(paper));
+  const showSetup = buildSetup(byId("setup-fields"), app);
+  const showGains = buildGains(byId("scheme-tabs"), app);
   const showTables = buildTables(byId("tables-body"), description);
-  const cards = buildCards({ description, state, figures });
-  const paint = () => paintTheme(description, figures);
-  paint();
-  initTheme(byId("theme-toggle"), () => {
-    paint();
+  const cards = buildCards(app);
+  buildPinned(byId("pinned"), figures);
+  buildStage(byId("stage"), app);
+  buildCompare(byId("compare"), app);
+  buildShare(byId("share"), app);
+  buildServerRun(byId("server-run"), app);
+  buildExplain(app);
+  buildTour(app);
+  paintTheme(description, figures);
+  onTheme(() => {
+    paintTheme(description, figures);
     figures.redraw();
   });
-  figures.shown = [...state.visible];
+  showSchemes(app);
   byId("colophon").textContent = strings.colophon(description.core_version);
 
   laboratory.addEventListener("asked", () => {
@@ -89,15 +93,15 @@ function build({ bindings, module, description, state, paper }) {
     cards[scheme].progress = laboratory.progress[scheme];
   });
   let pendingText = null;
-  laboratory.addEventListener("result", ({ detail: { scheme, rows, report } }) => {
-    const { results } = laboratory;
+  laboratory.addEventListener("result", ({ detail: { scheme } }) => {
+    const { results, generation } = laboratory;
     cards[scheme].result = results[scheme];
-    figures.setRun(scheme, rows, report);
-    const { generation } = laboratory;
+    figures.redraw();
     const texts = () => {
       pendingText = null;
+      timeline.duration = state.valueAt(description.schemes[0].id, "/integration/duration_s");
       showTables(results);
-      figures.describe(reportsOf(results), state.valueAt(description.schemes[0].id, "/integration/duration_s"));
+      figures.describe(reportsOf(results), timeline.duration);
     };
     // Once a frame, like the figures, however many results arrive in it.
     pendingText ??= requestAnimationFrame(texts);
@@ -117,7 +121,8 @@ function build({ bindings, module, description, state, paper }) {
   laboratory.begin(pool);
 }
 
-function buildCards({ description, state, figures }) {
+function buildCards(app) {
+  const { description, state } = app;
   const cards = {};
   for (const scheme of description.schemes) {
     const card = element("scheme-card");
@@ -125,14 +130,19 @@ function buildCards({ description, state, figures }) {
     card.addEventListener("toggle", ({ detail }) => {
       state.visible[detail.shown ? "add" : "delete"](scheme.id);
       state.remember();
-      figures.shown = [...state.visible];
-      figures.redraw();
+      showSchemes(app);
     });
     card.addEventListener("copied", () => announce(strings.copied));
     cards[scheme.id] = card;
     byId("scheme-cards").append(card);
   }
   return cards;
+}
+
+/** Shows the visible schemes, in the core's order. */
+function showSchemes({ description, state, figures }) {
+  figures.shown = description.schemes.map(({ id }) => id).filter((id) => state.visible.has(id));
+  figures.redraw();
 }
 
 /** Colours come from the core, so that page and figures cannot disagree. */
@@ -162,16 +172,6 @@ function finished(laboratory, generation, description) {
     return `${name}: ${ended}.`;
   });
   announce(strings.announceReady(parts.join(" ")));
-}
-
-let announcing = null;
-
-/** Says something to screen readers, once things have been quiet for a moment. */
-function announce(text) {
-  clearTimeout(announcing);
-  announcing = setTimeout(() => {
-    byId("announcements").textContent = text;
-  }, ANNOUNCE_AFTER_MS);
 }
 
 function reportsOf(results) {

@@ -16,7 +16,7 @@ export class RunPool {
   #stopped = false;
 
   /**
-   * `handlers`: `done({scheme, generation, report, rows, elapsed_ms})`, `progress({scheme, progress})`,
+   * `handlers`: `done({scheme, generation, scenario, report, rows, elapsed_ms})`, `progress({scheme, progress})`,
    * `failed({scheme, generation, message})`, `restarted()`.
    */
   constructor(module, size, handlers) {
@@ -74,7 +74,7 @@ export class RunPool {
       slot.ready = true;
       slot.failures = 0;
     } else if (data.job === slot.job?.id) {
-      const { scheme, generation } = slot.job;
+      const { scheme, generation, scenario } = slot.job;
       if (data.type === "progress") {
         this.#handlers.progress({ scheme, progress: data.progress });
         return;
@@ -86,7 +86,7 @@ export class RunPool {
       slot.job = null;
       if (data.type === "done") {
         const { report, rows, elapsed_ms } = data;
-        this.#handlers.done({ scheme, generation, report, rows, elapsed_ms });
+        this.#handlers.done({ scheme, generation, scenario, report, rows, elapsed_ms });
       }
     }
     this.#dispatch();

@@ -5,7 +5,7 @@
 
 import { element, symbol } from "../dom.js";
 import { formatExact, parseTyped } from "../format.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 
 let created = 0;
 

@@ -2,7 +2,7 @@
 
 import { element, swatch } from "../dom.js";
 import { formatNumber, formatSeconds } from "../format.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 
 const HASH_DIGITS = 8;
 

@@ -5,7 +5,7 @@
 import "../elements/figure-card.js";
 import { element } from "../dom.js";
 import { formatNumber, formatSeconds } from "../format.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 
 /** In the order of the page; the signals come before the tables. */
 const SIGNALS = ["tracking_errors", "velocity_errors", "torques", "observer_errors"];
@@ -24,7 +24,8 @@ const ESTIMATES_PER_FIGURE = 6;
 export const FIGURES = [...SIGNALS, ...ESTIMATES];
 
 export class Figures {
-  #plotter;
+  #bindings;
+  #runs;
   #description;
   #cards = [];
   /** The latest reports by scheme, and the duration. */
@@ -36,9 +37,10 @@ export class Figures {
   shown = [];
   dark = false;
 
-  /** `containers` take the signals' figures and the estimates'. */
-  constructor(plotter, description, containers) {
-    this.#plotter = plotter;
+  /** Draws `runs` with the module's `bindings`; `containers` take the signals' figures and the estimates'. */
+  constructor({ bindings, runs, description }, containers) {
+    this.#bindings = bindings;
+    this.#runs = runs;
     this.#description = description;
     containers.signals.append(...SIGNALS.map((id) => this.add(id)));
     containers.estimates.append(...ESTIMATES.map((id) => this.add(id)));
@@ -59,16 +61,6 @@ export class Figures {
   change(card, id) {
     card.show({ id, title: strings.figure[id] });
     this.#describe(card);
-  }
-
-  /** Takes a scheme's samples, or null for none, and the report on its run. */
-  setRun(scheme, rows, report) {
-    if (rows) {
-      this.#plotter.set_run(scheme, rows, report.outcome === "completed", report.theta_true);
-    } else {
-      this.#plotter.clear(scheme);
-    }
-    this.redraw();
   }
 
   /** Everything in view is drawn in the next frame; then `after` is called. */
@@ -110,7 +102,8 @@ export class Figures {
     for (const card of this.#cards.filter(({ inView, stale }) => inView && stale)) {
       const scale = card.prepare();
       if (scale > 0) {
-        this.#plotter.draw(card.canvas, card.dataset.figure, this.shown, this.dark, scale);
+        const view = { shown: this.shown, dark: this.dark, scale };
+        this.#bindings.draw_figure(this.#runs, card.canvas, card.dataset.figure, JSON.stringify(view));
         card.stale = false;
       }
     }

@@ -4,7 +4,7 @@ import "../elements/number-field.js";
 import { element, swatch, symbol } from "../dom.js";
 import { withValueAt } from "../pointer.js";
 import { linear, logarithmic } from "../scale.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 
 const PROJECTION = "/scheme/gains/projection/";
 

@@ -5,7 +5,7 @@
 
 import { element } from "../dom.js";
 import { load, save } from "../storage.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 import { FIGURES } from "./figures.js";
 
 const KEY = "pinned";

@@ -3,7 +3,7 @@
 import "../elements/number-field.js";
 import { element } from "../dom.js";
 import { linear, logarithmic } from "../scale.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 
 const CUSTOM = "custom";
 

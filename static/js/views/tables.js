@@ -2,7 +2,7 @@
 
 import { element, swatch } from "../dom.js";
 import { formatNumber, formatPrinted, formatSeconds } from "../format.js";
-import { strings } from "../strings.js";
+import { strings } from "../strings/index.js";
 
 const INDICES = [
   ["index_e_deg", strings.table1],

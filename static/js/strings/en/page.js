@@ -1,12 +1,17 @@
-// Every text of the page in one place, so that another language is another file like this.
+// The playground's own texts: frame, setup, gains, figures, tables.
 
-export const strings = {
+export const page = {
   skip: "Skip to the results",
   tagline: "Adaptive control of a robot arm, live",
   intro:
     "Three controllers make the same simulated robot arm follow the same path without knowing its masses and frictions: " +
     "they learn 18 parameters on the way. Move a slider and every curve and number is computed again, here in your browser. " +
     "The proposed scheme does it without measuring velocity.",
+  pages: { playground: "Playground", jobs: "Jobs", api: "API" },
+  pagesLabel: "Pages",
+  toolbar: "Tools",
+  stage: "The arm",
+  compare: "Compare",
   sections: "Sections",
   controls: "Controls",
   setup: "Setup",

@@ -1,0 +1,3 @@
+// Texts: history, pins, links and files.
+
+export const compare = {};

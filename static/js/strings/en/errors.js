@@ -1,0 +1,3 @@
+// Texts: refusals of the core, in the reader's language.
+
+export const errors = {};

@@ -1,0 +1,3 @@
+// Texts: what gains, signals and equations mean.
+
+export const explain = {};

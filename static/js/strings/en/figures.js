@@ -1,0 +1,3 @@
+// Texts: what figures are called and their controls.
+
+export const figures = {};

@@ -1,0 +1,12 @@
+// English, the language that every text is written in first.
+
+import { compare } from "./compare.js";
+import { errors } from "./errors.js";
+import { explain } from "./explain.js";
+import { figures } from "./figures.js";
+import { page } from "./page.js";
+import { server } from "./server.js";
+import { stage } from "./stage.js";
+import { tour } from "./tour.js";
+
+export const en = { ...page, figures, stage, compare, server, explain, tour, errors };

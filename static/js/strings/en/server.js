@@ -1,0 +1,3 @@
+// Texts: running on the server, and the jobs page.
+
+export const server = {};

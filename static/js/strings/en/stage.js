@@ -1,0 +1,3 @@
+// Texts: the arm and its playback.
+
+export const stage = {};

@@ -1,0 +1,3 @@
+// Texts: the guided tour of the paper.
+
+export const tour = {};

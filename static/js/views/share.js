@@ -1,0 +1,4 @@
+// Links, import and export.
+
+/** Builds it. */
+export function buildShare(_place, _app) {}
