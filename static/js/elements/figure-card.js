@@ -93,23 +93,16 @@ export class FigureCard extends HTMLElement {
   }
 
   #observe() {
-    const observer = new ResizeObserver(([entry]) => this.#resize(entry));
-    try {
-      // Exact where a layout pixel is not a whole number of the device's; also told when only the ratio changes.
-      observer.observe(this.box, { box: "device-pixel-content-box" });
-    } catch {
-      observer.observe(this.box);
-      onPixelRatio(() => this.#resize({ contentRect: this.box.getBoundingClientRect() }));
-    }
+    new ResizeObserver(([entry]) => this.#resize(entry.contentRect)).observe(this.box);
+    onPixelRatio(() => this.#resize({ width: this.box.clientWidth, height: this.box.clientHeight }));
     new IntersectionObserver(([entry]) => this.#move(entry.isIntersecting), { rootMargin: MARGIN }).observe(this);
   }
 
-  #resize({ devicePixelContentBoxSize: exact, contentRect }) {
+  #resize({ width: layout, height: high }) {
     const scale = devicePixelRatio || 1;
-    const width = exact?.[0].inlineSize ?? Math.round(contentRect.width * scale);
-    const height = exact?.[0].blockSize ?? Math.round(contentRect.height * scale);
+    const [width, height] = [Math.round(layout * scale), Math.round(high * scale)];
     if (width !== this.#size.width || height !== this.#size.height) {
-      this.#size = { width, height, layout: contentRect.width };
+      this.#size = { width, height, layout };
       this.#ask();
     }
   }

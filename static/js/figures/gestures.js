@@ -91,6 +91,8 @@ export class Gestures {
       this.#handlers.selection(null);
       const ends = [drag.start, place].map(({ x }) => abscissaAt(drag.panel, x)).sort((a, b) => a - b);
       zoomTo(this.#timeline, ...ends);
+      // What is under the pointer now is another instant; the next move says which.
+      this.#timeline.hover(null);
     } else if (!drag.moved) {
       this.#seek(drag.panel, place);
     }
