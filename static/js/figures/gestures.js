@@ -159,7 +159,7 @@ export class Gestures {
     const held = from + ((middle - panel.left) / width) * (to - from);
     const span = Math.min((to - from) * (distance / now.distance), this.#timeline.duration);
     const start = held - ((now.middle - panel.left) / width) * span;
-    zoomTo(this.#timeline, Math.max(0, Math.min(start, this.#timeline.duration - span)), Math.max(start, 0) + span);
+    zoomTo(this.#timeline, start, start + span);
   }
 
   #spread() {

@@ -3,17 +3,16 @@
 /** A few samples of a default run: closer in there is nothing more to see. */
 const LEAST_S = 0.02;
 
-/** Shows `from` to `to`, but no less than a few samples. */
+/** Shows `from` to `to`, moved where it would leave the run, but no less than a few samples. */
 export function zoomTo(timeline, from, to) {
-  const missing = Math.max(0, LEAST_S - (to - from)) / 2;
-  const low = Math.min(Math.max(from - missing, 0), Math.max(0, timeline.duration - LEAST_S));
-  timeline.zoom(low, Math.max(to + missing, low + LEAST_S));
+  const span = Math.max(to - from, LEAST_S);
+  panTo(timeline, (from + to - span) / 2, span);
 }
 
 /** Shows a stretch `factor` times as long; `time` stays where it is on the screen. */
 export function zoomAbout(timeline, time, factor) {
   const [from, to] = timeline.window;
-  const scale = Math.max(factor, LEAST_S / Math.max(to - from, LEAST_S));
+  const scale = Math.max(factor, LEAST_S / (to - from));
   const about = Math.min(Math.max(time, from), to);
   zoomTo(timeline, about - (about - from) * scale, about + (to - about) * scale);
 }
