@@ -9,6 +9,7 @@ import { strings } from "../strings/index.js";
 import { failureOf } from "../wasm.js";
 import { PAPER_ESTIMATES, traits } from "./catalogue.js";
 import { download, fileName } from "./download.js";
+import { bindPopup } from "./popup.js";
 
 const texts = strings.figures;
 let menus = 0;
@@ -16,33 +17,15 @@ let menus = 0;
 /** Puts the menu's button among a card's tools. */
 export function addExportMenu(card, figures, { bindings, runs, timeline, description }) {
   const id = `figure-export-${(menus += 1)}`;
-  const menu = element("div", { class: "figure-menu", id: `${id}-menu`, hidden: true });
-  const opener = element(
-    "button",
-    { type: "button", id, "aria-expanded": "false", "aria-controls": menu.id, "aria-labelledby": `${id} ${card.titleId}` },
-    texts.export,
-  );
+  const menu = element("div", { class: "figure-menu", id: `${id}-menu` });
+  const named = { "aria-labelledby": `${id} ${card.titleId}` };
+  const opener = element("button", { type: "button", id, ...named }, texts.export);
   const wrap = element("div", { class: "figure-export" }, opener, menu);
   card.tools.append(wrap);
-
-  function open(shown) {
-    menu.hidden = !shown;
-    opener.setAttribute("aria-expanded", String(shown));
-    if (shown) {
-      menu.replaceChildren(...rows());
-      menu.querySelector("button").focus();
-    }
-  }
-  opener.addEventListener("click", () => open(menu.hidden));
-  wrap.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !menu.hidden) {
-      event.stopPropagation();
-      open(false);
-      opener.focus();
-    }
+  const close = bindPopup(wrap, opener, menu, () => {
+    menu.replaceChildren(...rows());
+    menu.querySelector("button").focus();
   });
-  wrap.addEventListener("focusout", ({ relatedTarget }) => relatedTarget && !wrap.contains(relatedTarget) && open(false));
-  document.addEventListener("pointerdown", ({ target }) => menu.hidden || wrap.contains(target) || open(false));
 
   function rows() {
     const { figure } = card.dataset;
@@ -75,8 +58,7 @@ export function addExportMenu(card, figures, { bindings, runs, timeline, descrip
     } catch (error) {
       notice(texts.exportFailed(failureOf(error).message), "error");
     }
-    open(false);
-    opener.focus();
+    close();
   }
 
   /** Which stretch a file shows; nothing where it shows everything. */
@@ -85,18 +67,18 @@ export function addExportMenu(card, figures, { bindings, runs, timeline, descrip
     return timeline.isZoomed ? `${from.toFixed(3)}s-to-${to.toFixed(3)}s` : "";
   }
 
-  function named(figure, extension) {
+  function nameOf(figure, extension) {
     const axis = traits(figure).symlog && figures.axis === "symlog" ? "symlog" : "";
     return fileName([figure.replaceAll("_", "-"), axis, stretch(), figures.dark ? "dark" : "light"], extension);
   }
 
   function png(figure, canvas) {
-    const name = named(figure, "png");
+    const name = nameOf(figure, "png");
     canvas.toBlob((blob) => (blob ? download(name, blob) : notice(texts.exportFailed(name), "error")), "image/png");
   }
 
   function svg(figure) {
-    download(named(figure, "svg"), bindings.export_svg(runs, figure, figures.viewOf(figure, 1)), "image/svg+xml");
+    download(nameOf(figure, "svg"), bindings.export_svg(runs, figure, figures.viewOf(figure, 1)), "image/svg+xml");
   }
 
   function csv(id, name) {

@@ -14,6 +14,8 @@ export function bindKeys(card, timeline, moved) {
   };
   const seek = (time) => {
     timeline.pause();
+    // A mouse that happens to rest on a figure must not hold the cursor.
+    timeline.hover(null);
     timeline.seek(time);
     follow(timeline, timeline.position);
     moved();

@@ -4,6 +4,7 @@ import { element } from "../dom.js";
 import { formatNumber } from "../format.js";
 import { strings } from "../strings/index.js";
 import { GROUPS } from "./catalogue.js";
+import { bindPopup } from "./popup.js";
 import { zoomAbout } from "./window.js";
 
 const FACTOR = 1.5;
@@ -49,18 +50,25 @@ export function buildToolbar(figures, timeline) {
   showWindow();
 
   const links = GROUPS.map(({ id }) => element("a", { href: `#figures-${id}` }, texts.groups[id]));
-  const group = (label, ...children) => element("div", { class: "figure-bar-group", role: "group", "aria-label": label }, children);
+  const group = (label, ...children) =>
+    element("div", { class: "figure-bar-group", role: "group", "aria-label": label }, children.flat());
+  const zooms = [out, button("+", texts.zoomIn, () => zoom(1 / FACTOR)), whole, stretch];
   return element(
     "div",
     { class: "figure-bar" },
     element("nav", { class: "figure-bar-group figure-links", "aria-label": texts.groupsLabel }, links),
-    group(texts.zoom, out, button("+", texts.zoomIn, () => zoom(1 / FACTOR)), whole, stretch),
+    buildHelp(),
+    group(texts.zoom, zooms),
     group(texts.axis, element("span", { "aria-hidden": "true" }, texts.axis), element("div", { class: "segments" }, axes)),
-    element(
-      "details",
-      { class: "figure-help" },
-      element("summary", {}, texts.help),
-      element("div", {}, texts.hints.map((hint) => element("p", {}, hint)), element("p", { id: "figure-keys" }, texts.keys)),
-    ),
   );
+}
+
+function buildHelp() {
+  const texts = strings.figures;
+  const hints = [...texts.hints.map((hint) => element("p", {}, hint)), element("p", { id: "figure-keys" }, texts.keys)];
+  const panel = element("div", { id: "figure-help" }, hints);
+  const opener = element("button", { type: "button" }, texts.help);
+  const wrap = element("div", { class: "figure-help" }, opener, panel);
+  bindPopup(wrap, opener, panel);
+  return wrap;
 }

@@ -54,7 +54,7 @@ export const figures = {
   axis: "Error axes",
   axes: { linear: "Linear", symlog: "Symmetric log" },
   focus: "Run to decompose",
-  help: "How to zoom and read",
+  help: "Gestures and keys",
   hints: [
     "Point at a figure to read all curves at that instant. Drag across a stretch to zoom into it, in all figures; Shift and drag to move it; double-click for the whole run. Ctrl or ⌘ with the wheel zooms, as does a pinch.",
     "On a touch screen: one finger sideways moves the cursor, two fingers zoom and move.",

@@ -54,7 +54,7 @@ export const figures = {
   axis: "Ejes de error",
   axes: { linear: "Lineal", symlog: "Logarítmico simétrico" },
   focus: "Simulación que se descompone",
-  help: "Cómo ampliar y leer",
+  help: "Gestos y teclas",
   hints: [
     "Apunte a una figura para leer todas las curvas en ese instante. Arrastre sobre un tramo para ampliarlo en todas las figuras; Mayús y arrastrar lo desplaza; doble clic muestra la simulación entera. Ctrl o ⌘ con la rueda amplía, igual que un pellizco.",
     "En una pantalla táctil: un dedo hacia los lados mueve el cursor; dos dedos amplían y desplazan.",
