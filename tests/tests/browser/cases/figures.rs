@@ -2,7 +2,7 @@
 
 use crate::bench::Bench;
 use crate::page::{Page, Screen};
-use crate::pictures::{canvas, settle};
+use crate::pictures::{canvas, picture, settle};
 use adaptarm_core::recording::{Columns, Signal};
 use adaptarm_core::scenario::{Scenario, Scheme};
 use anyhow::{Context, Result, ensure};
@@ -83,6 +83,19 @@ pub fn zoom_is_shared_and_values_are_those_recorded(bench: &Bench) -> Result<()>
     settle(&page)?;
     ensure!(window(&page)? == [0.0, WHOLE_S], "a double click does not show everything");
     ensure!(canvas(&page, "tracking_errors")? == whole[0], "the whole run looks different after a zoom");
+
+    // A click leaves the cursor where it was, over all figures, when the pointer has gone.
+    let layers = || -> Result<[String; 2]> {
+        let layer = |figure| picture(&page, &format!("#figures [data-figure={figure}] .figure-overlay"));
+        Ok([layer("tracking_errors")?, layer("velocity_errors")?])
+    };
+    let bare = layers()?;
+    mouse(&page, "mousePressed", at(0.5, 0.3), 1)?;
+    mouse(&page, "mouseReleased", at(0.5, 0.3), 0)?;
+    mouse(&page, "mouseMoved", (1.0, 1.0), 0)?;
+    settle(&page)?;
+    let marked = layers()?;
+    ensure!(marked[0] != bare[0] && marked[1] != bare[1], "a click leaves no cursor");
     Ok(())
 }
 
