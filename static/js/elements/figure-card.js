@@ -15,6 +15,7 @@ export class FigureCard extends HTMLElement {
   #size = { width: 0, height: 0, layout: 0 };
   #needed;
   #zoom;
+  #height;
   #title;
   #caption;
   /** In view, or nearly. */
@@ -31,10 +32,10 @@ export class FigureCard extends HTMLElement {
   panels = [];
 
   /**
-   * `{id, title, caption, note, aspect, zoom}`: a zoom below 1 draws letters and lines smaller than elsewhere. `needed` is
-   * called when the card should be drawn.
+   * `{id, title, caption, note, height, zoom}`: `height(id, width)` in layout pixels; a zoom below 1 draws letters and lines
+   * smaller than elsewhere. `needed` is called when the card should be drawn.
    */
-  configure({ id, title, caption, note, aspect, zoom = 1 }, needed) {
+  configure({ id, title, caption, note, height, zoom = 1 }, needed) {
     this.#needed = needed;
     this.#zoom = zoom;
     this.#title = element("h3", { id: `figure-title-${(cards += 1)}` });
@@ -45,7 +46,7 @@ export class FigureCard extends HTMLElement {
     /** For controls of this figure. */
     this.tools = element("div", { class: "figure-tools" });
     this.box = element("div", { class: "canvas-box" }, this.canvas, this.overlay, this.readings);
-    this.box.style.setProperty("--aspect", aspect);
+    this.#height = height;
     const head = [this.#title, note ? element("span", { class: "figure-note" }, note) : null, this.tools];
     this.replaceChildren(element("div", { class: "figure-head" }, head), this.#caption, this.box);
     this.show({ id, title, caption });
@@ -99,6 +100,9 @@ export class FigureCard extends HTMLElement {
   }
 
   #resize({ width: layout, height: high }) {
+    if (layout > 0) {
+      this.box.style.setProperty("--height", `${Math.round(this.#height(this.dataset.figure, layout))}px`);
+    }
     const scale = devicePixelRatio || 1;
     const [width, height] = [Math.round(layout * scale), Math.round(high * scale)];
     if (width !== this.#size.width || height !== this.#size.height) {

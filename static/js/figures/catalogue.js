@@ -13,18 +13,15 @@ export const GROUPS = [
 export const PAPER_ESTIMATES = ["estimates_1", "estimates_2", "estimates_3"];
 
 /**
- * `symlog`: the axis may be symmetric-logarithmic; `focus`: shows one run at a time; `wide`: takes the whole width;
- * `plane`: has no time axis, its abscissa is the figure named.
+ * `focus`: shows one run at a time; `wide`: takes the whole width; `grid`: its panels stand side by side where there is
+ * room, so its height is the core's business; `plane`: has no time axis.
  */
 const TRAITS = {
-  tracking_errors: { symlog: true },
-  velocity_errors: { symlog: true },
-  observer_errors: { symlog: true },
-  sliding_variables: { symlog: true },
-  parameter_error_norm: { symlog: true },
-  phase_plane: { plane: "tracking_errors" },
-  torque_parts: { focus: true },
-  estimates: { wide: true },
+  positions: { wide: true },
+  phase_plane: { wide: true, grid: true, plane: true },
+  torque_parts: { wide: true, focus: true },
+  estimates: { wide: true, grid: true },
+  parameter_error_norm: { wide: true },
 };
 
 /** What a figure can do. */

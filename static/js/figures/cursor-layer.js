@@ -29,11 +29,10 @@ export class CursorLayer {
   }
 
   /**
-   * Shows `reading` (what `read_figure` gives; null for nothing) at the panels' instant. `abscissas` are places on the
-   * horizontal axes per panel and value where that is not time. `runs`: `{id, color, scheme}`; `texts`: whether values are
-   * written; `linear`: whether the vertical axis is; `selection`: `[from, to]` or null; `palette`: colours.
+   * Shows `reading` (what `read_figure` gives; null for nothing). `lines` are what its values stand for, `{id, color, dash}`,
+   * in the order of reading; `texts`: whether values are written; `selection`: `[from, to]` or null; `palette`: colours.
    */
-  show({ reading, abscissas, runs, texts, linear, selection, palette }) {
+  show({ reading, lines, texts, selection, palette }) {
     this.#palette = palette;
     this.clear();
     const { panels } = this.#card;
@@ -45,21 +44,28 @@ export class CursorLayer {
       return;
     }
     this.#drawn = true;
-    const colors = new Map(runs.map(({ id, color }) => [id, color]));
-    panels.forEach((panel, n) => {
-      const x = abscissas ? null : pixelOfAbscissa(panel, reading.time_s);
-      if (x !== null) {
-        this.#line(panel, x);
+    const known = new Map(lines.map((line, order) => [line.id, { ...line, order }]));
+    const ordered = reading.panels.map(({ values }) =>
+      values.filter(({ id }) => known.has(id)).sort((a, b) => known.get(a.id).order - known.get(b.id).order),
+    );
+    panels.forEach((panel, n) => this.#mark(panel, reading, ordered[n] ?? [], known));
+    const visible = this.#card.plane || pixelOfAbscissa(panels[0], reading.time_s) !== null;
+    this.#write(texts && visible ? ordered : null, reading.time_s, known);
+  }
+
+  /** The line and the dots of a panel. */
+  #mark(panel, { time_s }, values, known) {
+    const line = this.#card.plane ? null : pixelOfAbscissa(panel, time_s);
+    if (line !== null) {
+      this.#line(panel, line);
+    }
+    for (const { id, value, x } of values) {
+      const at = this.#card.plane && x !== null ? pixelOfAbscissa(panel, x) : line;
+      const y = value === null ? null : pixelOfOrdinate(panel, value);
+      if (at !== null && y !== null) {
+        this.#dot(at, y, known.get(id).color);
       }
-      reading.panels[n]?.values.forEach(({ id, value }, run) => {
-        const at = abscissas ? pixelOfAbscissa(panel, abscissas[n]?.values[run]?.value ?? NaN) : x;
-        if (at !== null && linear && value !== null) {
-          this.#dot(at, pixelOfOrdinate(panel, value), colors.get(id));
-        }
-      });
-    });
-    const visible = abscissas || pixelOfAbscissa(panels[0], reading.time_s) !== null;
-    this.#write(texts && visible ? reading : null, runs, abscissas !== null);
+    }
   }
 
   /** Takes lines and dots away. */
@@ -81,9 +87,6 @@ export class CursorLayer {
   }
 
   #dot(x, y, color) {
-    if (y === null) {
-      return;
-    }
     const context = this.#context;
     context.beginPath();
     context.arc(x, y, DOT * this.#card.ratio, 0, 2 * Math.PI);
@@ -104,56 +107,51 @@ export class CursorLayer {
     }
   }
 
-  #write(reading, runs, plane) {
-    this.#card.readings.hidden = reading === null;
-    if (reading === null) {
+  /** Writes `values` per panel; null hides them. */
+  #write(values, time, known) {
+    this.#card.readings.hidden = values === null;
+    if (values === null) {
       return;
     }
-    this.#build(reading, runs);
-    const { panels, ratio } = this.#card;
-    reading.panels.forEach(({ values }, n) => {
+    this.#build(values, known);
+    const { panels, plane, ratio } = this.#card;
+    const written = panels.slice(0, values.length);
+    written.forEach((panel, n) => {
       const readout = this.#readouts[n];
-      const panel = panels[n];
-      if (!panel) {
-        return;
-      }
-      // In a plane there is no line to stand beside: the corner is free of the pointer's instant.
-      const x = plane ? panel.left - GAP * ratio : pixelOfAbscissa(panel, reading.time_s);
-      const flipped = x - panel.left > panel.right - x;
+      // In a plane there is no line to stand beside.
+      const x = plane ? panel.left - GAP * ratio : pixelOfAbscissa(panel, time);
+      const flipped = !plane && x - panel.left > panel.right - x;
       readout.box.classList.toggle("flipped", flipped);
       place(readout.box, x / ratio + (flipped ? -GAP : GAP), panel.top / ratio);
-      values.forEach(({ value }, run) => setText(readout.values[run], formatNumber(value, DIGITS)));
+      values[n].forEach(({ value }, run) => setText(readout.values[run], formatNumber(value, DIGITS)));
     });
     // As an axis has it: on the bottom axis, under the line.
     const lowest = panels.reduce((low, panel) => (panel.bottom > low.bottom ? panel : low), panels[0]);
-    const at = plane ? (lowest.left + lowest.right) / 2 : pixelOfAbscissa(lowest, reading.time_s);
-    setText(this.#time, strings.figures.instant(formatNumber(reading.time_s, TIME_DIGITS)));
     this.#time.hidden = plane;
-    place(this.#time, at / ratio, lowest.bottom / ratio);
+    setText(this.#time, strings.figures.instant(formatNumber(time, TIME_DIGITS)));
+    place(this.#time, (plane ? 0 : pixelOfAbscissa(lowest, time)) / ratio, lowest.bottom / ratio);
   }
 
-  #build({ panels }, runs) {
-    const key = JSON.stringify([panels.map(({ values }) => values.map(({ id }) => id)), runs]);
+  #build(values, known) {
+    const lines = values.map((panel) => panel.map(({ id }) => known.get(id)));
+    const key = JSON.stringify(lines);
     if (key === this.#built) {
       return;
     }
     this.#built = key;
-    const known = new Map(runs.map((run) => [run.id, run]));
-    this.#readouts = panels.map((panel) => {
-      const values = panel.values.map(() => element("span"));
-      const rows = panel.values.map(({ id }, n) => element("div", { "data-run": id }, mark(known.get(id)), values[n]));
-      return { values, box: element("div", { class: "reading" }, rows) };
+    this.#readouts = lines.map((panel) => {
+      const nodes = panel.map(() => element("span"));
+      const rows = panel.map((line, n) => element("div", { "data-line": line.id }, mark(line), nodes[n]));
+      return { values: nodes, box: element("div", { class: "reading", hidden: panel.length === 0 }, rows) };
     });
     this.#card.readings.replaceChildren(...this.#readouts.map(({ box }) => box), this.#time);
   }
 }
 
-/** A sample of a run's line; runs of one scheme differ in colour, schemes also in dash. */
-function mark(run) {
-  const svg = swatch(run?.scheme ?? {});
-  if (run) {
-    svg.firstChild.style.stroke = run.color;
-  }
+/** A sample of a line; lines differ in colour and in dash. */
+function mark({ color, dash }) {
+  const svg = swatch({ dash });
+  svg.firstChild.style.stroke = color;
   return svg;
 }
 

@@ -21,7 +21,7 @@ export class Cursors {
   #selection = null;
   #palette = {};
 
-  /** `source`: `read(card, figure, time)` gives a reading, `runs()` what is shown, `linear(card)` whether its ordinate is. */
+  /** `source`: `read(card, time)` gives what `read_figure` does, `lines(card)` what stands for what. */
   constructor(timeline, source) {
     this.#timeline = timeline;
     this.#source = source;
@@ -61,13 +61,8 @@ export class Cursors {
   /** After a card became another figure's. */
   rename(card) {
     const id = card.dataset.figure;
-    const { plane } = traits(id);
+    card.plane = traits(id).plane === true;
     card.overlay.setAttribute("aria-label", strings.figures.cursorOf(strings.figures.titles[id]));
-    if (plane) {
-      card.dataset.plane = plane;
-    } else {
-      delete card.dataset.plane;
-    }
     this.update();
   }
 
@@ -93,17 +88,13 @@ export class Cursors {
     const { time, isPlaying } = this.#timeline;
     // At the start of a page that nobody has touched there is nothing to point at.
     const pointed = this.#reading || isPlaying || time > 0;
-    const runs = this.#source.runs();
     const palette = this.#colors();
     for (const [card, layer] of this.#layers) {
       if (card.inView && card.panels.length > 0) {
-        const { plane } = card.dataset;
         layer.show({
-          reading: pointed ? this.#source.read(card, card.dataset.figure, time) : null,
-          abscissas: pointed && plane ? this.#source.read(card, plane, time).panels : null,
-          runs,
+          reading: pointed ? this.#source.read(card, time) : null,
+          lines: this.#source.lines(card),
           texts: this.#reading,
-          linear: this.#source.linear(card),
           selection: this.#selection?.card === card ? this.#selection.ends : null,
           palette,
         });
@@ -138,6 +129,6 @@ export class Cursors {
   }
 
   #say(card) {
-    announce(describeReading(this.#source.read(card, card.dataset.figure, this.#timeline.position), this.#source.runs()));
+    announce(describeReading(this.#source.read(card, this.#timeline.position), this.#source.lines(card)));
   }
 }

@@ -40,9 +40,9 @@ function summarise(id, scheme, report) {
   return texts.altShown(scheme.name) + ended;
 }
 
-/** The values under the cursor, for people who hear them. `reading` is what `read_figure` gives, `runs` what is shown. */
-export function describeReading(reading, runs) {
-  const names = new Map(runs.map(({ id, name }) => [id, name]));
+/** The values under the cursor, for people who hear them. `reading` is what `read_figure` gives, `lines` name them. */
+export function describeReading(reading, lines) {
+  const names = new Map(lines.map(({ id, name }) => [id, name]));
   const panels = reading.panels.map(({ label, values }) => {
     const parts = values.map(({ id, value }) => `${names.get(id) ?? id} ${formatNumber(value, 3)}`);
     return `${label}: ${parts.join(", ")}`;

@@ -7,7 +7,7 @@ import { element } from "../dom.js";
 import { notice } from "../notice.js";
 import { strings } from "../strings/index.js";
 import { failureOf } from "../wasm.js";
-import { PAPER_ESTIMATES, traits } from "./catalogue.js";
+import { PAPER_ESTIMATES } from "./catalogue.js";
 import { download, fileName } from "./download.js";
 import { bindPopup } from "./popup.js";
 
@@ -68,7 +68,7 @@ export function addExportMenu(card, figures, { bindings, runs, timeline, descrip
   }
 
   function nameOf(figure, extension) {
-    const axis = traits(figure).symlog && figures.axis === "symlog" ? "symlog" : "";
+    const axis = figures.hasSymlog(figure) && figures.axis === "symlog" ? "symlog" : "";
     return fileName([figure.replaceAll("_", "-"), axis, stretch(), figures.dark ? "dark" : "light"], extension);
   }
 

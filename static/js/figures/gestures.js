@@ -39,7 +39,7 @@ export class Gestures {
   }
 
   #down(event) {
-    if (event.button !== 0 || this.#card.dataset.plane !== undefined) {
+    if (event.button !== 0 || this.#card.plane) {
       return;
     }
     const place = this.#place(event);
@@ -116,7 +116,7 @@ export class Gestures {
   }
 
   #hover(place) {
-    const panel = this.#card.dataset.plane === undefined ? panelAt(this.#card.panels, place.x, place.y) : null;
+    const panel = !this.#card.plane ? panelAt(this.#card.panels, place.x, place.y) : null;
     this.#card.active = true;
     this.#timeline.hover(panel ? abscissaAt(panel, place.x) : null);
     this.#handlers.reading(panel !== null);
@@ -173,7 +173,7 @@ export class Gestures {
     if (event.ctrlKey || event.metaKey) {
       event.preventDefault();
       const place = this.#place(event);
-      const panel = this.#card.dataset.plane === undefined ? panelAt(this.#card.panels, place.x, place.y) : null;
+      const panel = !this.#card.plane ? panelAt(this.#card.panels, place.x, place.y) : null;
       const time = panel ? abscissaAt(panel, place.x) : this.#timeline.time;
       zoomAbout(this.#timeline, time, Math.exp(Math.min(Math.max(dy, -WHEEL_MOST), WHEEL_MOST) * WHEEL_RATE));
     } else if (this.#timeline.isZoomed && Math.abs(dx) > Math.abs(dy)) {

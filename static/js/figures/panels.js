@@ -4,12 +4,16 @@ const NUMBERS = 8;
 /** How far from a panel a pointer still means it, in panel heights. */
 const REACH = 0.35;
 
-/** Panels from what `draw_figure` returns: eight numbers each. */
-export function readPanels(numbers) {
+/** Decades on a symmetric-logarithmic axis, as `draw_figure` documents it. */
+const DECADES = 4;
+
+/** Panels from what `draw_figure` returns, eight numbers each; `symlog` says what the vertical axes are. */
+export function readPanels(numbers, symlog) {
   const panels = [];
   for (let n = 0; n + NUMBERS <= (numbers?.length ?? 0); n += NUMBERS) {
     const [left, top, right, bottom, atLeft, atRight, atBottom, atTop] = numbers.subarray(n, n + NUMBERS);
-    panels.push({ left, top, right, bottom, atLeft, atRight, atBottom, atTop });
+    const map = symlog ? symmetric(atBottom, atTop) : (y) => y;
+    panels.push({ left, top, right, bottom, atLeft, atRight, atBottom, atTop, map });
   }
   return panels;
 }
@@ -40,8 +44,14 @@ export function pixelOfAbscissa(panel, value) {
   return share >= 0 && share <= 1 ? panel.left + share * (panel.right - panel.left) : null;
 }
 
-/** The pixel of a value on a linear vertical axis; null outside. */
-export function pixelOfOrdinate(panel, value) {
-  const share = (value - panel.atBottom) / (panel.atTop - panel.atBottom);
-  return share >= 0 && share <= 1 ? panel.bottom - share * (panel.bottom - panel.top) : null;
+/** The pixel of a value on the vertical axis; null outside. */
+export function pixelOfOrdinate({ top, bottom, atBottom, atTop, map }, value) {
+  const share = (map(value) - map(atBottom)) / (map(atTop) - map(atBottom));
+  return share >= 0 && share <= 1 ? bottom - share * (bottom - top) : null;
+}
+
+/** Linear within c of zero, decades beyond; c is four decades below the power of ten at or above the larger end. */
+function symmetric(low, high) {
+  const c = 10 ** (Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)))) - DECADES);
+  return (y) => Math.asinh(y / (2 * c));
 }

@@ -14,7 +14,8 @@ const AXES = ["linear", "symlog"];
 /** Builds the toolbar. */
 export function buildToolbar(figures, timeline) {
   const texts = strings.figures;
-  const button = (text, label, onclick) => element("button", { type: "button", "aria-label": label, title: label, onclick }, text);
+  const button = (text, label, onclick) =>
+    element("button", { type: "button", "aria-label": label, title: label, onclick }, text);
   // About the cursor where it can be seen, else about the middle.
   const zoom = (factor) => {
     const [from, to] = timeline.window;

@@ -18,6 +18,8 @@ import { strings } from "../strings/index.js";
 
 const texts = strings.figures;
 const AXIS_KEY = "axis";
+/** Layout pixels that three panels need. */
+const LEAST_HEIGHT = 352;
 
 export class Figures {
   #app;
@@ -46,9 +48,9 @@ export class Figures {
     this.#app = app;
     this.ids = available(app.description);
     this.#cursors = new Cursors(app.timeline, {
-      read: (card, figure, time) => this.#read(card, figure, time),
-      runs: () => this.runs,
-      linear: (card) => this.axis === "linear" || !traits(card.dataset.figure).symlog,
+      read: ({ dataset: { figure } }, time) =>
+        JSON.parse(app.bindings.read_figure(app.runs, figure, this.viewOf(figure, 1), time)),
+      lines: ({ dataset: { figure } }) => (traits(figure).focus ? this.#parts() : this.runs),
     });
     container.append(buildToolbar(this, app.timeline), ...GROUPS.map((group) => this.#section(group)));
     app.timeline.addEventListener("window", () => this.redraw());
@@ -56,11 +58,11 @@ export class Figures {
 
   /** Makes another card of a figure and keeps it drawn; the caller places it. */
   add(id, zoom) {
-    const { natural_size, paper_number } = this.#described(id);
+    const { paper_number } = this.#described(id);
     const card = element("figure-card");
     const note = paper_number ? texts.paperFigure(paper_number) : null;
-    const aspect = natural_size[0] / natural_size[1];
-    card.configure({ id, ...captions(id), note, aspect, zoom }, () => this.#queue.ask());
+    const height = (figure, width) => this.#height(figure, width);
+    card.configure({ id, ...captions(id), note, height, zoom }, () => this.#queue.ask());
     card.toggleAttribute("data-wide", traits(id).wide === true);
     this.#cards.push(card);
     this.#cursors.add(card);
@@ -89,13 +91,13 @@ export class Figures {
   chooseAxis(axis) {
     this.axis = axis;
     save(AXIS_KEY, axis);
-    this.#redrawOnly((id) => traits(id).symlog);
+    this.#redrawOnly((id) => this.hasSymlog(id));
   }
 
   /** Chooses the run that figures of one run show. */
   chooseFocus(id) {
     this.focus = id;
-    this.#redrawOnly((figure) => traits(figure).focus);
+    this.#redrawOnly((figure) => traits(figure).focus === true);
   }
 
   /** Everything in view is drawn: in the next frame, or with `after` now; `after` is called when it is on the canvases. */
@@ -115,7 +117,7 @@ export class Figures {
 
   #redrawOnly(concerned) {
     for (const card of this.#cards) {
-      card.stale ||= concerned(card.dataset.figure) === true;
+      card.stale ||= concerned(card.dataset.figure);
     }
     this.#queue.ask();
   }
@@ -129,23 +131,38 @@ export class Figures {
     }
   }
 
-  /** Every run that is drawn: `{id, name, color}`, and `scheme` where it is a scheme's live run. */
+  /** Every run that is drawn: `{id, name, color, dash}`, those of schemes first. */
   get runs() {
     const theme = this.dark ? "dark" : "light";
-    const live = this.#schemes().map((scheme) => ({ id: scheme.id, name: scheme.name, color: scheme.color[theme], scheme }));
-    return [...live, ...this.overlays.map(({ id, label, color }) => ({ id, name: label, color }))];
+    const live = this.#schemes().map(({ id, name, color, dash }) => ({ id, name, color: color[theme], dash }));
+    return [...live, ...this.overlays.map(({ id, label, color }) => ({ id, name: label, color, dash: null }))];
   }
 
   /** How a figure is to be drawn, as the core reads it. */
   viewOf(figure, scale) {
     const { timeline } = this.#app;
-    const [from, to] = timeline.isZoomed ? timeline.window : [null, null];
+    const [from_s, to_s] = timeline.isZoomed ? timeline.window : [null, null];
     const live = this.shown.map((id) => ({ id, label: null, faded: false, color: null }));
     const faded = this.overlays.map(({ id, label, color }) => ({ id, label, faded: true, color }));
     const focus = this.runs.some(({ id }) => id === this.focus) ? this.focus : (this.runs[0]?.id ?? null);
-    const axis = traits(figure).symlog ? this.axis : "linear";
-    const view = { shown: [...faded, ...live], dark: this.dark, scale, from_s: from, to_s: to, axis, focus };
-    return JSON.stringify({ ...view, true_value: texts.trueValue, time_axis: texts.timeAxis });
+    return JSON.stringify({
+      shown: [...live, ...faded],
+      dark: this.dark,
+      scale,
+      from_s,
+      to_s,
+      axis: this.axis,
+      focus,
+      true_value: figure === "positions" ? texts.desired : texts.trueValue,
+      limit: figure === "voltages" ? texts.supplyLimit : texts.effortLimit,
+      parts: texts.parts,
+      time_axis: texts.timeAxis,
+    });
+  }
+
+  /** Whether a figure's axis may be symmetric-logarithmic. */
+  hasSymlog(id) {
+    return this.#described(id).has_symlog;
   }
 
   /** Whether the core draws a figure, on the page or not. */
@@ -176,20 +193,31 @@ export class Figures {
     card.description = describeFigure(card.dataset.figure, this.#schemes(), this.#reports, this.#seconds);
   }
 
+  /** As wide as it is, a figure of joints keeps a picture's shape; the height of one with many panels is the core's to say. */
+  #height(id, width) {
+    const [wide, high] = this.#described(id).natural_size;
+    const most = this.#app.bindings.figure_height(id, width);
+    return traits(id).grid ? most : Math.min(most, Math.max(LEAST_HEIGHT, (width * high) / wide));
+  }
+
+  /** What the lines of a torque's decomposition stand for. */
+  #parts() {
+    const theme = this.dark ? "dark" : "light";
+    const torque_lines = this.#app.description.torque_lines ?? [];
+    return torque_lines.map(({ id, color, dash }) => ({ id, name: texts.parts[id], color: color[theme], dash }));
+  }
+
   #draw(card) {
     const scale = card.prepare();
     if (scale > 0) {
       const { bindings, runs } = this.#app;
       const { figure } = card.dataset;
-      card.panels = readPanels(bindings.draw_figure(runs, card.canvas, figure, this.viewOf(figure, scale)));
+      const places = bindings.draw_figure(runs, card.canvas, figure, this.viewOf(figure, scale));
+      card.panels = readPanels(places, this.axis === "symlog" && this.hasSymlog(figure));
       card.stale = false;
       card.drawnAt = performance.now();
       this.#cursors.update();
     }
-  }
-
-  #read(card, figure, time) {
-    return JSON.parse(this.#app.bindings.read_figure(this.#app.runs, figure, this.viewOf(figure, card.ratio), time));
   }
 }
 

@@ -34,6 +34,17 @@ export const figures = {
   },
   paperFigure: (number) => `Paper fig. ${number}`,
   trueValue: "true value",
+  desired: "desired",
+  supplyLimit: "supply limit",
+  effortLimit: "effort limit",
+  parts: {
+    inertia: "inertia",
+    coriolis: "Coriolis and centripetal",
+    gravity: "gravity",
+    viscous_friction: "viscous friction",
+    dry_friction: "dry friction",
+    total: "sum",
+  },
   timeAxis: "t [s]",
 
   alt: (title, seconds, summary) => `${title} over ${seconds}. ${summary}`,

@@ -34,6 +34,17 @@ export const figures = {
   },
   paperFigure: (number) => `Fig. ${number} del artículo`,
   trueValue: "valor verdadero",
+  desired: "deseada",
+  supplyLimit: "límite de alimentación",
+  effortLimit: "límite de esfuerzo",
+  parts: {
+    inertia: "inercia",
+    coriolis: "Coriolis y centrípeta",
+    gravity: "gravedad",
+    viscous_friction: "fricción viscosa",
+    dry_friction: "fricción seca",
+    total: "suma",
+  },
   timeAxis: "t [s]",
 
   alt: (title, seconds, summary) => `${title} durante ${seconds}. ${summary}`,

@@ -291,7 +291,7 @@ pub fn expect_reading(page: &Page<'_>, figure: &str, signal: Signal) -> Result<(
         "const card = document.querySelector(`#figures [data-figure=${arguments[0]}]`); \
          return [card.querySelector('.figure-readings').hidden, card.querySelector('.reading-time')?.textContent ?? '', \
              [...card.querySelectorAll('.reading')].map((panel) => \
-                 Object.fromEntries([...panel.children].map((row) => [row.dataset.run, row.textContent])))]",
+                 Object.fromEntries([...panel.children].map((row) => [row.dataset.line, row.textContent])))]",
         &[json!(figure)],
     )?;
     ensure!(read[0] == false, "{figure}: no values are shown");
