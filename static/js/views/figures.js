@@ -203,7 +203,7 @@ export class Figures {
   /** What the lines of a torque's decomposition stand for. */
   #parts() {
     const theme = this.dark ? "dark" : "light";
-    const torque_lines = this.#app.description.torque_lines ?? [];
+    const { torque_lines } = this.#app.description;
     return torque_lines.map(({ id, color, dash }) => ({ id, name: texts.parts[id], color: color[theme], dash }));
   }
 
