@@ -56,7 +56,7 @@ async function main() {
 /** `app` is what every feature gets: module, description, state, laboratory, runs, timeline and, from here on, figures. */
 function build(app) {
   const { module, description, state, paper, laboratory, timeline } = app;
-  const figures = new Figures(app, { signals: byId("figures"), estimates: byId("estimates") });
+  const figures = new Figures(app, byId("figures"));
   app.figures = figures;
   app.resetAll = () => laboratory.replace(structuredClone(paper));
   const showSetup = buildSetup(byId("setup-fields"), app);
@@ -98,6 +98,7 @@ function build(app) {
   laboratory.addEventListener("result", ({ detail: { scheme } }) => {
     const { results, generation } = laboratory;
     cards[scheme].result = results[scheme];
+    timeline.duration = state.valueAt(description.schemes[0].id, "/integration/duration_s");
     figures.redraw();
     const texts = () => {
       pendingText = null;

@@ -1,6 +1,8 @@
 //! The cases, by name.
 
 mod appearance;
+mod exports;
+mod figures;
 mod identity;
 mod input;
 mod keyboard;
@@ -30,6 +32,15 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_phone_sees_the_pinned_figure_follow_the_slider", pinned::a_phone_sees_the_figure_follow_the_slider),
     ("the_pinned_figure_is_chosen_and_hidden_by_keyboard", pinned::it_is_chosen_and_hidden_by_keyboard),
     ("a_phone_held_sideways_keeps_room_for_the_controls", pinned::a_phone_held_sideways_keeps_room),
+    ("zoom_is_shared_and_values_are_those_recorded", figures::zoom_is_shared_and_values_are_those_recorded),
+    ("keys_move_the_cursor_and_zoom", figures::keys_move_the_cursor_and_zoom),
+    ("fingers_scrub_zoom_and_scroll", figures::fingers_scrub_zoom_and_scroll),
+    ("errors_are_seen_on_a_symmetric_logarithmic_axis", figures::errors_are_seen_on_a_symmetric_logarithmic_axis),
+    ("figures_stay_sharp_at_any_pixel_ratio", figures::figures_stay_sharp_at_any_pixel_ratio),
+    ("a_spike_of_one_sample_is_seen", figures::a_spike_of_one_sample_is_seen),
+    ("a_figure_is_saved_as_shown", exports::a_figure_is_saved_as_shown),
+    ("the_paper_s_figures_of_estimates_are_saved", exports::the_paper_s_figures_of_estimates_are_saved),
+    ("the_export_menu_opens_and_closes_by_keyboard", exports::the_menu_opens_and_closes_by_keyboard),
     ("every_colour_of_text_has_enough_contrast", appearance::every_colour_of_text_has_enough_contrast),
     ("screenshots", appearance::screenshots),
     ("a_slider_move_is_drawn_in_time", latency::a_slider_move_is_drawn_in_time),
