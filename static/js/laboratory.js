@@ -11,6 +11,9 @@ export class Laboratory extends EventTarget {
   #pool = null;
   /** Scheme to the generation of its newest run. */
   #wanted = {};
+  /** Runs that are no scheme's, by the key that the pool has for them: `{resolve, reject}`. */
+  #asides = new Map();
+  #asideCount = 0;
   /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, or `{generation, failure}`. */
   results = {};
   /** Scheme to progress of the run under way, 0 to 1. */
@@ -54,6 +57,39 @@ export class Laboratory extends EventTarget {
     return failure;
   }
 
+  /** Resolves once every scheme's newest run has ended. */
+  idle() {
+    return new Promise((resolve) => {
+      const look = () => {
+        if (this.isReady) {
+          this.removeEventListener("result", look);
+          resolve();
+        }
+      };
+      this.addEventListener("result", look);
+      look();
+    });
+  }
+
+  /** Runs a scenario's text beside the schemes' runs; resolves to `{report, rows}`. */
+  compute(scenario) {
+    const key = `aside:${(this.#asideCount += 1)}`;
+    return new Promise((resolve, reject) => {
+      this.#asides.set(key, { resolve, reject });
+      this.#pool.submit(key, this.generation, scenario);
+    });
+  }
+
+  /** Whether a message of the pool was about a run beside the schemes'; then it has been dealt with. */
+  #settleAside(key, settle) {
+    const aside = this.#asides.get(key);
+    if (aside) {
+      this.#asides.delete(key);
+      settle(aside);
+    }
+    return aside !== undefined;
+  }
+
   #change(apply) {
     try {
       const changed = apply();
@@ -67,6 +103,10 @@ export class Laboratory extends EventTarget {
   }
 
   #submit(schemes) {
+    if (!this.#pool) {
+      // `begin` runs everything.
+      return;
+    }
     this.generation += 1;
     this.askedAt = performance.now();
     for (const scheme of schemes) {
@@ -78,18 +118,27 @@ export class Laboratory extends EventTarget {
   }
 
   done({ scheme, generation, scenario, report, rows, elapsed_ms }) {
+    if (this.#settleAside(scheme, ({ resolve }) => resolve({ report, rows }))) {
+      return;
+    }
     this.results[scheme] = { generation, scenario, report, elapsed_ms };
     this.#runs.set(scheme, scenario, rows, report.outcome === "completed");
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
   failed({ scheme, generation, message }) {
+    if (this.#settleAside(scheme, ({ reject }) => reject(new Error(message)))) {
+      return;
+    }
     this.results[scheme] = { generation, failure: message };
     this.#runs.remove(scheme);
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
   advanced({ scheme, progress }) {
+    if (this.#asides.has(scheme)) {
+      return;
+    }
     this.progress[scheme] = progress;
     this.dispatchEvent(new CustomEvent("progress", { detail: { scheme } }));
   }

@@ -1,6 +1,6 @@
 //! The core in the browser: a thin facade that turns JSON text and typed arrays into the core's types and back.
 //!
-//! `describe` says what exists, `check` validates, `Run` advances a simulation in a worker; `Runs` holds what is shown and
+//! `describe` says what exists, `check` and `resolve` validate, `Run` advances a simulation in a worker; `Runs` holds what is shown and
 //! `draw_figure` draws it, on the main thread. No physics and no page here: the page's behaviour is in `static/js`.
 
 #[cfg(target_arch = "wasm32")]
@@ -12,5 +12,5 @@ mod run;
 mod runs;
 
 pub use describe::describe;
-pub use run::{Run, check};
+pub use run::{Run, check, resolve};
 pub use runs::Runs;
