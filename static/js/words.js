@@ -3,6 +3,7 @@
 // Settings are `{documents, visible}`: a document per scheme and the schemes shown.
 
 import { differences } from "./diff.js";
+import { symbol } from "./dom.js";
 import { formatExact } from "./format.js";
 import { strings } from "./strings/index.js";
 
@@ -12,23 +13,29 @@ const SPELLED_OUT = 2;
 export class Words {
   #description;
   #names = new Map();
+  #units = new Map();
+  /** Finds the gains' symbols in a sentence. */
+  #symbols;
 
   constructor(description) {
     this.#description = description;
     const [robot] = description.robots;
-    const plain = {
-      "/integration/duration_s": strings.duration,
-      "/integration/step_s": strings.step,
-      "/plant/friction/width_rad_s": strings.friction,
-      "/initial/velocity": strings.start,
-    };
-    for (const [pointer, name] of Object.entries(plain)) {
+    for (const [pointer, name, unit] of [
+      ["/integration/duration_s", strings.duration, "s"],
+      ["/integration/step_s", strings.step, "s"],
+      ["/plant/friction/width_rad_s", strings.friction, "rad/s"],
+      ["/initial/velocity", strings.start, ""],
+    ]) {
       this.#names.set(pointer, name);
+      this.#units.set(pointer, unit);
     }
     robot.parameters.forEach(({ symbol }, n) => {
       this.#names.set(`/plant/theta_scale/${n}`, strings.compare.thetaScale(symbol));
     });
-    for (const gain of description.schemes.flatMap(({ gains }) => gains)) {
+    const gains = description.schemes.flatMap((scheme) => scheme.gains);
+    const written = new Set(gains.map((gain) => gain.symbol).filter((text) => /^\p{L}+_\w+$/u.test(text)));
+    this.#symbols = new RegExp(`((?:${[...written].join("|")})(?![\\w]))`, "u");
+    for (const gain of gains) {
       const ofNumber = {
         joint: (n) => strings.compare.ofJoint(gain.symbol, n + 1),
         parameter: (n) => strings.compare.ofParameter(gain.symbol, robot.parameters[n].symbol),
@@ -50,6 +57,11 @@ export class Words {
     }
     const texts = { rest: strings.startRest, desired: strings.startDesired, undefined: strings.compare.absent };
     return texts[value] ?? (typeof value === "string" ? value : JSON.stringify(value));
+  }
+
+  /** A sentence with its symbols written as such, for an element. */
+  rich(text) {
+    return text.split(this.#symbols).flatMap((part, n) => (n % 2 ? symbol(part) : part));
   }
 
   /** Differences of two sets of documents: `[{pointer, before, after, schemes}]`, equal ones of several schemes together. */
@@ -104,6 +116,7 @@ export class Words {
   }
 
   #sentence({ pointer, before, after, schemes }) {
-    return strings.compare.change(this.name(pointer), this.value(before), this.value(after)) + this.suffix(schemes);
+    const unit = this.#units.get(pointer) ?? "";
+    return strings.compare.change(this.name(pointer), this.value(before), `${this.value(after)} ${unit}`.trimEnd()) + this.suffix(schemes);
   }
 }

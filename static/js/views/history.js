@@ -56,7 +56,7 @@ export function buildHistory(place, app) {
             box.querySelector("[aria-current]").focus();
           },
         },
-        element("span", {}, label(index)),
+        element("span", {}, words.rich(label(index))),
         current ? element("span", { class: "now" }, texts.now) : null,
       );
       return element("li", {}, button);

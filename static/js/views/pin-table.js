@@ -2,7 +2,7 @@
 //
 // Filled at most once a frame, and only while it is in view.
 
-import { element, symbol } from "../dom.js";
+import { element } from "../dom.js";
 import { formatNumber } from "../format.js";
 import { strings } from "../strings/index.js";
 
@@ -116,10 +116,8 @@ function pinnedCell(now, pinned) {
   const verdict = compare(now, pinned);
   if (verdict) {
     cell.dataset.verdict = verdict.kind;
-    cell.append(
-      element("span", { class: "difference" }, verdict.text),
-      element("span", { class: `verdict ${verdict.kind}` }, `${SIGNS[verdict.kind]} ${texts[verdict.kind]}`),
-    );
+    const mark = element("span", { class: `verdict ${verdict.kind}` }, `${SIGNS[verdict.kind]} ${texts[verdict.kind]}`);
+    cell.append(element("span", { class: "difference" }, verdict.text, " ", mark));
   }
   return cell;
 }
@@ -167,7 +165,7 @@ function settingsOf(pin, { state, words }) {
     element(
       "tr",
       { "data-pointer": pointer },
-      element("th", { scope: "row" }, symbol(words.name(pointer)), words.suffix(schemes)),
+      element("th", { scope: "row" }, words.rich(words.name(pointer)), words.suffix(schemes)),
       element("td", { class: "number" }, words.value(after)),
       element("td", { class: "number" }, words.value(before)),
     ),

@@ -10,7 +10,6 @@ export const compare = {
   redone: (what) => `Done again: ${what}.`,
   history: "History",
   historyHelp: "Newest first. Choose a step to go there; nothing is lost until you change something.",
-  start: "Start",
   startWith: (study) => `Start: ${study}`,
   ownSettings: "own settings",
   wentTo: (what) => `Back at: ${what}.`,
@@ -58,7 +57,6 @@ export const compare = {
   tableCaption: (scheme) => `${scheme}: now and pinned`,
   metric: "Metric",
   current: "Now",
-  joints: (field, joint) => `${field}, joint ${joint}`,
   metrics: {
     index_e_deg: "Index of e,\u00a0°",
     index_de_deg_s: "Index of ė,\u00a0°/s",
