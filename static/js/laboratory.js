@@ -14,7 +14,8 @@ export class Laboratory extends EventTarget {
   /** Runs that are no scheme's, by the key that the pool has for them: `{resolve, reject}`. */
   #asides = new Map();
   #asideCount = 0;
-  /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, or `{generation, failure}`. */
+  /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, `{generation, stoppedAt}` with the
+   *  share that was simulated, or `{generation, failure}`. */
   results = {};
   /** Scheme to progress of the run under way, 0 to 1. */
   progress = {};
@@ -71,11 +72,12 @@ export class Laboratory extends EventTarget {
     });
   }
 
-  /** Runs a scenario's text beside the schemes' runs; resolves to `{report, rows}`. */
-  compute(scenario) {
+  /** Runs a scenario's text beside the schemes' runs; resolves to `{report, rows}`, or to null if `signal` was given first. */
+  compute(scenario, signal) {
     const key = `aside:${(this.#asideCount += 1)}`;
     return new Promise((resolve, reject) => {
       this.#asides.set(key, { resolve, reject });
+      signal.addEventListener("abort", () => this.#pool.stop(key));
       this.#pool.submit(key, this.generation, scenario);
     });
   }
@@ -135,11 +137,33 @@ export class Laboratory extends EventTarget {
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
-  advanced({ scheme, progress }) {
-    if (this.#asides.has(scheme)) {
+  /** A run under way: what it has recorded so far is shown, unless a newer run waits already. */
+  advanced({ scheme, generation, scenario, progress, rows }) {
+    if (generation !== this.#wanted[scheme]) {
       return;
     }
     this.progress[scheme] = progress;
+    this.#runs.set(scheme, scenario, rows, true);
     this.dispatchEvent(new CustomEvent("progress", { detail: { scheme } }));
+  }
+
+  stopped({ scheme, generation, progress }) {
+    if (this.#settleAside(scheme, ({ resolve }) => resolve(null))) {
+      return;
+    }
+    if (generation === this.#wanted[scheme]) {
+      this.results[scheme] = { generation, stoppedAt: progress };
+      this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
+    }
+  }
+
+  /** Stops a scheme's run where it is. */
+  stop(scheme) {
+    this.#pool.stop(scheme);
+  }
+
+  /** Runs a scheme's document again, though nothing changed: after it was stopped. */
+  again(scheme) {
+    this.#submit([scheme]);
   }
 }

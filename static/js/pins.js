@@ -1,7 +1,8 @@
 // Pinned runs: settings that stay to be compared with, with the reports and samples of their runs.
 //
 // Only settings and trajectory hashes are kept across visits; the runs are computed again, one at a time and after the
-// page's own, and their hashes compared with those kept. Samples go to `runs` as `pin1:proposed` and so on.
+// page's own, and their hashes compared with those kept; a run under way makes room for the page's. Samples go to `runs` as
+// `pin1:proposed` and so on.
 
 import { load, save } from "./storage.js";
 
@@ -24,6 +25,8 @@ export class Pins extends EventTarget {
   #runs;
   #queue = [];
   #working = false;
+  /** The run under way: `{pin, abort}`. */
+  #job = null;
   list = [];
   /** How many remembered pins could not be used. */
   dropped = 0;
@@ -34,6 +37,7 @@ export class Pins extends EventTarget {
     this.#state = state;
     this.#laboratory = laboratory;
     this.#runs = runs;
+    laboratory.addEventListener("asked", () => this.#job?.abort());
     this.#restore((document) => bindings.check(JSON.stringify(document)));
   }
 
@@ -70,6 +74,9 @@ export class Pins extends EventTarget {
   remove(pin) {
     this.list = this.list.filter((other) => other !== pin);
     this.#queue = this.#queue.filter((job) => job.pin !== pin);
+    if (this.#job?.pin === pin) {
+      this.#job.abort();
+    }
     for (const id of Object.keys(pin.documents)) {
       this.#runs.remove(runId(pin, id));
     }
@@ -117,22 +124,36 @@ export class Pins extends EventTarget {
 
   async #run({ pin, scheme }) {
     const scenario = JSON.stringify(pin.documents[scheme]);
+    const controller = new AbortController();
+    this.#job = { pin, abort: () => controller.abort() };
+    let result = null;
+    let failure = null;
     try {
-      const { report, rows } = await this.#laboratory.compute(scenario);
-      if (!this.list.includes(pin)) {
-        return;
-      }
-      this.#runs.set(runId(pin, scheme), scenario, rows, report.outcome === "completed");
-      pin.reports[scheme] = report;
-      if (!pin.hashes[scheme]) {
-        pin.hashes[scheme] = report.trajectory_hash;
-      } else if (pin.hashes[scheme] !== report.trajectory_hash) {
-        pin.differs.push(scheme);
-      }
+      result = await this.#laboratory.compute(scenario, controller.signal);
     } catch (error) {
-      pin.failures[scheme] = String(error?.message ?? error);
+      failure = String(error?.message ?? error);
+    }
+    this.#job = null;
+    if (!this.list.includes(pin)) {
+      return;
+    }
+    if (result) {
+      this.#runs.set(runId(pin, scheme), scenario, result.rows, result.report.outcome === "completed");
+      this.#keep(pin, scheme, result.report);
+    } else if (failure !== null) {
+      pin.failures[scheme] = failure;
+    } else {
+      this.#queue.unshift({ pin, scheme });
     }
     this.#changed();
+  }
+
+  #keep(pin, scheme, report) {
+    pin.reports[scheme] = report;
+    pin.hashes[scheme] ??= report.trajectory_hash;
+    if (pin.hashes[scheme] !== report.trajectory_hash) {
+      pin.differs.push(scheme);
+    }
   }
 
   #changed() {
