@@ -59,6 +59,11 @@ export class Words {
     return texts[value] ?? (typeof value === "string" ? value : JSON.stringify(value));
   }
 
+  /** A value with its unit, where it is one of the setup. */
+  quantity(pointer, value) {
+    return `${this.value(value)} ${this.#units.get(pointer) ?? ""}`.trimEnd();
+  }
+
   /** A sentence with its symbols written as such, for an element. */
   rich(text) {
     return text.split(this.#symbols).flatMap((part, n) => (n % 2 ? symbol(part) : part));
@@ -116,7 +121,6 @@ export class Words {
   }
 
   #sentence({ pointer, before, after, schemes }) {
-    const unit = this.#units.get(pointer) ?? "";
-    return strings.compare.change(this.name(pointer), this.value(before), `${this.value(after)} ${unit}`.trimEnd()) + this.suffix(schemes);
+    return strings.compare.change(this.name(pointer), this.value(before), this.quantity(pointer, after)) + this.suffix(schemes);
   }
 }

@@ -24,8 +24,8 @@ export function buildPinList({ pins, words, laboratory, history: steps, descript
       onkeydown: (event) => event.key === "Enter" && rename(pin, name),
     });
     const toggle = element("input", { type: "checkbox", onchange: () => pins.update(pin, { shown: toggle.checked }) });
-    const use = element("button", { type: "button", onclick: () => restore(pin) }, texts.usePin);
-    const remove = element("button", { type: "button", onclick: () => drop(pin) }, texts.removePin);
+    const use = element("button", { type: "button", class: "pin-use", onclick: () => restore(pin) }, texts.usePin);
+    const remove = element("button", { type: "button", class: "pin-remove", onclick: () => drop(pin) }, texts.removePin);
     const standing = element("p", { class: "pin-standing" });
     const node = element(
       "li",

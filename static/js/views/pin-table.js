@@ -59,7 +59,7 @@ export function buildPinTable(app) {
     const current = laboratory.results[scheme]?.report;
     const reports = pins.list.map((pin) => pin.reports[scheme]);
     const head = [
-      element("th", { scope: "col", colspan: 2 }, texts.metric),
+      element("th", { scope: "col" }, texts.metric),
       element("th", { scope: "col", class: "number" }, texts.current),
       ...pins.list.map((pin) => pinHead(pin)),
     ];
@@ -98,17 +98,18 @@ function metricRows(metric, current, reports) {
   if (count === 0) {
     return null;
   }
+  const single = count === 1;
+  const head = element("th", { scope: "rowgroup", colspan: reports.length + 2 }, texts.metrics[metric]);
   const rows = Array.from({ length: count }, (_, n) =>
     element(
       "tr",
       { "data-metric": `${metric}/${n}` },
-      n === 0 ? element("th", { scope: "rowgroup", rowspan: count, colspan: count === 1 ? 2 : null }, texts.metrics[metric]) : null,
-      count > 1 ? element("th", { scope: "row", class: "joint" }, strings.jointShort(n + 1)) : null,
+      element("th", { scope: "row", class: single ? null : "joint" }, single ? texts.metrics[metric] : strings.jointShort(n + 1)),
       element("td", { class: "number" }, element("span", { class: "ours" }, valueText(current, now[n]))),
       pinned.map((values, at) => pinnedCell({ report: current, value: now[n] }, { report: reports[at], value: values[n] })),
     ),
   );
-  return element("tbody", {}, rows);
+  return element("tbody", {}, single ? null : element("tr", { class: "metric" }, head), rows);
 }
 
 function pinnedCell(now, pinned) {
@@ -116,13 +117,15 @@ function pinnedCell(now, pinned) {
   const verdict = compare(now, pinned);
   if (verdict) {
     cell.dataset.verdict = verdict.kind;
-    const mark = element("span", { class: `verdict ${verdict.kind}` }, `${SIGNS[verdict.kind]} ${texts[verdict.kind]}`);
+    const mark = element("span", { class: `verdict ${verdict.kind}` }, `${SIGNS[verdict.kind]}\u00a0${texts[verdict.kind]}`);
     cell.append(element("span", { class: "difference" }, verdict.text, " ", mark));
   }
   return cell;
 }
 
-const SIGNS = { better: "✓", worse: "✗", same: "=" };
+const SIGNS = { better: "✓", worse: "✗", same: "=", near: "≈" };
+/** Differences below this are nothing to choose by, %. */
+const NEAR_PERCENT = 0.01;
 
 function valueText(report, value) {
   if (!report || value === undefined) {
@@ -150,6 +153,9 @@ function compare(now, pinned) {
   const absolute = now.value - pinned.value;
   const signed = (number, digits) => (number > 0 ? "+" : "") + formatNumber(number, digits);
   const percent = (100 * absolute) / pinned.value;
+  if (Math.abs(percent) < NEAR_PERCENT) {
+    return { kind: "near", text: signed(absolute, 2) };
+  }
   return {
     kind: absolute < 0 ? "better" : "worse",
     text: Number.isFinite(percent) ? texts.difference(signed(absolute, 3), signed(percent, 3)) : texts.differenceOnly(signed(absolute, 3)),
@@ -166,8 +172,8 @@ function settingsOf(pin, { state, words }) {
       "tr",
       { "data-pointer": pointer },
       element("th", { scope: "row" }, words.rich(words.name(pointer)), words.suffix(schemes)),
-      element("td", { class: "number" }, words.value(after)),
-      element("td", { class: "number" }, words.value(before)),
+      element("td", { class: "number" }, words.quantity(pointer, after)),
+      element("td", { class: "number" }, words.quantity(pointer, before)),
     ),
   );
   const columns = texts.settingColumns.map((text, n) => element("th", { scope: "col", class: n > 0 ? "number" : null }, text));

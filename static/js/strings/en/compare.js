@@ -73,6 +73,7 @@ export const compare = {
   better: "better",
   worse: "worse",
   same: "same",
+  near: "about the same",
   never: "never",
   diverged: "diverged",
   difference: (absolute, percent) => `${absolute} (${percent} %)`,

@@ -76,6 +76,7 @@ export const compare = {
   better: "mejor",
   worse: "peor",
   same: "igual",
+  near: "casi igual",
   never: "nunca",
   diverged: "divergió",
   difference: (absolute, percent) => `${absolute} (${percent} %)`,
