@@ -47,7 +47,7 @@ export class Pins extends EventTarget {
 
   /** Whether every pinned run has ended. */
   get isReady() {
-    return !this.#working && this.#queue.length === 0;
+    return this.list.every(({ documents, reports, failures }) => Object.keys(documents).every((id) => reports[id] || failures[id]));
   }
 
   /** Keeps the present settings under a name; returns the pin, or null if there are too many. */
@@ -119,7 +119,6 @@ export class Pins extends EventTarget {
       }
     }
     this.#working = false;
-    this.dispatchEvent(new Event("changed"));
   }
 
   async #run({ pin, scheme }) {

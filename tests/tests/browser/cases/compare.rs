@@ -169,8 +169,8 @@ pub fn pinned_runs_are_compared_and_kept(bench: &Bench) -> Result<()> {
     let now = report(&edited(Scheme::Proposed, &[(GAIN, value)])?)?.metrics;
     for (metric, now, pinned) in [
         ("index_e_deg/0", now.index_e_deg[0], pinned.index_e_deg[0]),
-        ("index_de_deg_s/2", now.index_de_deg_s[2], pinned.index_de_deg_s[2]),
-        ("tau_peak_nm/1", now.tau_peak_nm[1], pinned.tau_peak_nm[1]),
+        ("index_de_deg_s/0", now.index_de_deg_s[0], pinned.index_de_deg_s[0]),
+        ("tau_peak_nm/0", now.tau_peak_nm[0], pinned.tau_peak_nm[0]),
     ] {
         let row = format!("#pin-table [data-metric=\"{metric}\"]");
         let shown = number(&text(&page, &format!("{row} .ours"))?)?;

@@ -167,8 +167,8 @@ pub fn a_broken_link_changes_nothing(bench: &Bench) -> Result<()> {
             page.run("document.querySelector('#notices').replaceChildren(); location.hash = arguments[0]", &[json!(link)])?;
             page.wait_for("return document.querySelector('#notices').textContent !== ''")?;
         } else {
-            page.run("location.hash = arguments[0]; location.reload()", &[json!(link)])?;
-            settle(&page)?;
+            page.run("location.href = 'about:blank'", &[])?;
+            page.visit_path(link)?;
         }
         page.ready()?;
         let said = notices(&page)?;
