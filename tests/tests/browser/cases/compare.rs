@@ -133,9 +133,7 @@ pub fn the_history_survives_a_reload(bench: &Bench) -> Result<()> {
     ensure!(steps == expected, "the list is {steps}");
     page.run("document.querySelectorAll('#history-list .step')[2].click()", &[])?;
     page.ready()?;
-    expect_study(&page, |scheme| {
-        if scheme == Scheme::Proposed { vec![(GAIN.to_owned(), first)] } else { Vec::new() }
-    })?;
+    expect_study(&page, |scheme| if scheme == Scheme::Proposed { vec![(GAIN.to_owned(), first)] } else { Vec::new() })?;
     page.run("document.querySelectorAll('#history-list .step')[0].click()", &[])?;
     page.ready()?;
     ensure!(field_value(&page, &format!("#setup [data-pointer=\"{DURATION}\"]"))? == 6.0, "the last step is gone");
@@ -239,10 +237,30 @@ pub fn other_bits_and_a_seventh_pin_are_said(bench: &Bench) -> Result<()> {
     )?;
     page.reload()?;
     pins_ready(&page)?;
-    let standing = page.run("return [...document.querySelectorAll('.pin-standing')].map((node) => node.textContent)", &[])?;
+    let standing =
+        page.run("return [...document.querySelectorAll('.pin-standing')].map((node) => node.textContent)", &[])?;
     let standing: Vec<&str> = standing.as_array().context("no pins")?.iter().filter_map(Value::as_str).collect();
     ensure!(standing.len() == 5 && standing[1].contains("Other bits"), "the pins say {standing:?}");
     ensure!(standing[0].contains("same bits"), "the pins say {standing:?}");
     ensure!(text(&page, "#notices")?.contains("A pin of an earlier visit"), "a dropped pin is not mentioned");
+    Ok(())
+}
+
+pub fn a_slider_does_not_wait_for_pins(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    slide(&page, &format!("#setup [data-pointer=\"{DURATION}\"]"), 118)?;
+    page.click("#pin-runs")?;
+    // Stops the pin's first run, which starts again behind this one.
+    slide(&page, &gain_field(Scheme::SlotineLi, "/scheme/gains/k_s/1"), -40)?;
+    let waiting = page.run("return document.querySelector('#compare').dataset.state", &[])?;
+    ensure!(waiting == "running", "the pin's three runs of 60 s are done before a slider's one");
+    page.click("#undo")?;
+    page.ready()?;
+    pins_ready(&page)?;
+    ensure!(
+        text(&page, ".pin-standing")? == "same bits as when pinned",
+        "the pin is {}",
+        text(&page, ".pin-standing")?
+    );
     Ok(())
 }

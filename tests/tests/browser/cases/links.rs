@@ -41,9 +41,17 @@ pub fn a_link_opens_the_same_bits_in_a_fresh_profile(bench: &Bench) -> Result<()
     let (bits, cards) = (hashes(&page)?, shown(&page)?);
 
     let copied = "const done = arguments[0]; Object.defineProperty(navigator, 'clipboard', \
-        { value: { writeText: async (text) => done(text) } }); document.querySelector('#copy-link').click()";
+        { value: { writeText: async (text) => done(text) }, configurable: true }); document.querySelector('#copy-link').click()";
     let copied = page.run_async(copied, &[])?;
     ensure!(copied.as_str().is_some_and(|text| text.ends_with(&link)), "copied {copied}, the address has {link}");
+
+    // Where the page may not copy, the link is there to be copied by hand.
+    let by_hand = "const done = arguments[0]; Object.defineProperty(navigator, 'clipboard', { value: undefined, configurable: true }); \
+        document.querySelector('#copy-link').click(); \
+        setTimeout(() => { const field = document.querySelector('#link-text'); \
+            done([field.value, field.selectionStart, field.selectionEnd]); }, 300)";
+    let by_hand = page.run_async(by_hand, &[])?;
+    ensure!(by_hand == json!([copied, 0, copied.as_str().map(str::len)]), "by hand: {by_hand}");
 
     let fresh = Page::blank(bench, Screen::Desktop)?;
     fresh.visit_path(&link)?;
@@ -154,7 +162,10 @@ pub fn a_broken_link_changes_nothing(bench: &Bench) -> Result<()> {
         (pack(r#"{"shown":["nobodys"]}"#)?, "a scheme that this page does not know"),
         (patch(r#"["/scheme/gains/k_v/0",-5]"#)?, "-5 is outside the allowed range"),
         (patch(r#"["/scheme/kind","slotine_li"]"#)?, "unknown field `k_v`"),
-        (patch(r#"["/scheme/gains/nothing/0",5]"#)?, "sets something that does not exist: there is no /scheme/gains/nothing/0"),
+        (
+            patch(r#"["/scheme/gains/nothing/0",5]"#)?,
+            "sets something that does not exist: there is no /scheme/gains/nothing/0",
+        ),
         (patch(r#"["/__proto__/polluted",5]"#)?, "sets something that does not exist"),
         (pack(&bomb)?, "more than any settings need"),
         (format!("#1.{}", "A".repeat(100_000)), "more than any settings need"),
@@ -164,7 +175,10 @@ pub fn a_broken_link_changes_nothing(bench: &Bench) -> Result<()> {
         let short = &link[..link.len().min(60)];
         // Half of them pasted, half of them opened anew.
         if n % 2 == 0 {
-            page.run("document.querySelector('#notices').replaceChildren(); location.hash = arguments[0]", &[json!(link)])?;
+            page.run(
+                "document.querySelector('#notices').replaceChildren(); location.hash = arguments[0]",
+                &[json!(link)],
+            )?;
             page.wait_for("return document.querySelector('#notices').textContent !== ''")?;
         } else {
             page.run("location.href = 'about:blank'", &[])?;
@@ -225,7 +239,10 @@ pub fn a_broken_file_changes_nothing(bench: &Bench) -> Result<()> {
         (r#"{"scenarios":[],"label":"x"}"#.to_owned(), "not “label”"),
         (study(&[plain.clone(), plain.clone()]), "scenario 2 is the second one of proposed"),
         // All or none: the first would be good.
-        (study(&[scenario(r#"{"kind":"slotine_li","gains":{"k_s":[1,1,1]}}"#), plain.replace("/1", "/2")]), "scenario 2"),
+        (
+            study(&[scenario(r#"{"kind":"slotine_li","gains":{"k_s":[1,1,1]}}"#), plain.replace("/1", "/2")]),
+            "scenario 2",
+        ),
         (format!("{plain}{}", " ".repeat(1_000_001)), "1.0 MB"),
     ];
     for (n, (text, needle)) in cases.iter().enumerate() {
