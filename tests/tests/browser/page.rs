@@ -69,6 +69,13 @@ impl<'a> Page<'a> {
         Ok(self.bench.runtime.block_on(self.client.goto(&self.bench.server.url))?)
     }
 
+    /// Goes to a path of the page's server, such as `#1.…`, and waits until its results are drawn.
+    pub fn visit_path(&self, path: &str) -> Result<()> {
+        let url = format!("{}/{path}", self.bench.server.url.trim_end_matches('/'));
+        self.bench.runtime.block_on(self.client.goto(&url))?;
+        self.ready()
+    }
+
     /// Reloads the page and waits until its results are drawn.
     pub fn reload(&self) -> Result<()> {
         self.bench.runtime.block_on(self.client.refresh())?;

@@ -3,10 +3,12 @@
 mod appearance;
 mod exports;
 mod figures;
+mod compare;
 mod identity;
 mod input;
 mod keyboard;
 mod latency;
+mod links;
 mod long_runs;
 mod pinned;
 mod resilience;
@@ -52,4 +54,15 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
+    ("every_change_can_be_undone_and_a_drag_is_one", compare::every_change_can_be_undone),
+    ("the_history_survives_a_reload", compare::the_history_survives_a_reload),
+    ("pinned_runs_are_compared_kept_and_computed_again", compare::pinned_runs_are_compared_and_kept),
+    ("a_pin_with_other_bits_says_so_and_there_is_no_seventh", compare::other_bits_and_a_seventh_pin_are_said),
+    ("a_slider_does_not_wait_for_pins", compare::a_slider_does_not_wait_for_pins),
+    ("a_link_opens_the_same_bits_in_a_fresh_profile", links::a_link_opens_the_same_bits_in_a_fresh_profile),
+    ("back_and_reload_keep_their_settings", links::back_and_reload_keep_their_settings),
+    ("links_of_version_1_are_read_forever", links::links_of_version_1_are_read_forever),
+    ("a_broken_link_changes_nothing_and_says_why", links::a_broken_link_changes_nothing),
+    ("a_broken_file_changes_nothing_and_says_why", links::a_broken_file_changes_nothing),
+    ("exported_files_open_to_the_same_bits", links::exported_files_open_to_the_same_bits),
 ];
