@@ -5,6 +5,7 @@ import "./elements/scheme-card.js";
 import { announce } from "./announce.js";
 import { byId, element } from "./dom.js";
 import { formatSeconds } from "./format.js";
+import { takeHandover } from "./handover.js";
 import { Laboratory } from "./laboratory.js";
 import { buildMasthead } from "./masthead.js";
 import { notice } from "./notice.js";
@@ -119,6 +120,7 @@ function build(app) {
     stopped: (message) => notice(strings.failed(`${strings.workerGone}: ${message}`), "error"),
   });
   laboratory.begin(pool);
+  takeHandover(app);
 }
 
 function buildCards(app) {
