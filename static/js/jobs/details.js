@@ -12,7 +12,7 @@ import { jobActions, nameOf } from "./row.js";
 import { ScenarioView } from "./scenario-view.js";
 import { whenNamed } from "./schemes.js";
 import { stateBadge } from "./state-badge.js";
-import { formatDuration, formatShare, timeElement } from "./times.js";
+import { exactTime, formatDuration, formatShare } from "./times.js";
 import { forgetButton } from "./token-form.js";
 
 const texts = strings.server;
@@ -158,9 +158,9 @@ export class JobDetails {
     const facts = [
       [texts.filterKind, texts.kinds[job.kind] ?? job.kind],
       [texts.results, texts.scenariosDone(job.scenarios_done, job.scenarios)],
-      [texts.created, timeElement(job.created_at)],
-      [texts.started, job.started_at && timeElement(job.started_at)],
-      [texts.finished, job.finished_at && timeElement(job.finished_at)],
+      [texts.created, exactTime(job.created_at)],
+      [texts.started, job.started_at && exactTime(job.started_at)],
+      [texts.finished, job.finished_at && exactTime(job.finished_at)],
       [texts.took, job.cached ? texts.cached : span !== null && formatDuration(span)],
       [texts.attempts, String(job.attempts)],
       [texts.priority, job.priority ? String(job.priority) : null],

@@ -31,7 +31,9 @@ export class FigurePicture {
     });
     this.#picture.addEventListener("error", () => this.#failed());
     const label = element("label", { class: "filter", for: this.#choice.id }, element("span", {}, texts.figure), this.#choice);
-    this.node.append(element("figcaption", {}, label), this.#missing, this.#picture);
+    // Narrower than it can be read at, it scrolls within its own box.
+    const box = element("div", { class: "picture-box", tabindex: "0", role: "group", "aria-label": texts.figure }, this.#picture);
+    this.node.append(element("figcaption", {}, label), this.#missing, box);
   }
 
   /** Shows the chosen figure of the scenario number `n`. */

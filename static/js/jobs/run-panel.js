@@ -108,6 +108,8 @@ export function buildRunPanel(run, { description, state, laboratory }, { returnT
     const explained = [...names].filter((name) => texts.explanations[name]);
     notes.replaceChildren(...explained.map((name) => element("li", { "data-verdict": name }, texts.explanations[name])));
     changed.hidden = !names.has("changed");
+    // Before there is anything to compare, rows of dashes would only take room.
+    table.hidden = rows.every(({ server }) => server === null);
   }
 
   function row(scheme) {

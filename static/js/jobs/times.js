@@ -64,8 +64,14 @@ export function formatShare(share) {
 /** A `<time>` that says how long ago something was, and exactly when where one points at it. Stays true. */
 export function timeElement(timestamp) {
   const moment = Date.parse(timestamp);
-  const exact = new Intl.DateTimeFormat(locale(), { dateStyle: "medium", timeStyle: "medium" }).format(moment);
-  return element("time", { datetime: timestamp, title: exact, "data-moment": moment }, ago(moment));
+  return element("time", { datetime: timestamp, title: exactly(moment), "data-moment": moment }, ago(moment));
+}
+
+/** Exactly when something was, and how long ago that is. */
+export const exactTime = (timestamp) => [exactly(Date.parse(timestamp)), " (", timeElement(timestamp), ")"];
+
+function exactly(moment) {
+  return new Intl.DateTimeFormat(locale(), { dateStyle: "medium", timeStyle: "medium" }).format(moment);
 }
 
 setInterval(() => {
