@@ -89,7 +89,7 @@ export function buildRunPanel(run, { description, state, laboratory }, { returnT
       shownError = run.error;
       failure.replaceChildren();
       if (run.error) {
-        showError(failure, run.error, { retry: () => run.retry() });
+        showError(failure, run.error, { retry: () => run.retry(), dismissed: () => run.record?.id === null && run.forget() });
       }
     }
     compare();

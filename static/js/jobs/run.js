@@ -12,6 +12,8 @@ const VERSION = 1;
 
 export class ServerRun extends EventTarget {
   #following = null;
+  /** The run before one that could not be submitted. */
+  #previous = null;
   /** `{id, key, label, submitted: [{scheme, hash, document}], at}`, `id` null until the server has said it; or null. */
   record = null;
   /** "idle", "sending", "following", "ended", or "stuck" with an `error`. */
@@ -26,6 +28,7 @@ export class ServerRun extends EventTarget {
 
   /** Submits documents `[{scheme, hash, document}]` as a new job. */
   submit(label, submitted) {
+    this.#previous = this.record?.id ? this.record : this.#previous;
     this.#begin({ version: VERSION, id: null, key: newKey(), label, submitted, at: Date.now() });
     save(KEY, this.record);
     return this.#send();
@@ -55,8 +58,15 @@ export class ServerRun extends EventTarget {
     this.#hear(await cancelJob(this.record.id));
   }
 
-  /** Forgets it here; the job stays on the server. */
+  /** Forgets it here; the job stays on the server. What was not submitted gives way to the run before it. */
   forget() {
+    if (this.record?.id === null && this.#previous) {
+      this.#begin(this.#previous);
+      this.#previous = null;
+      save(KEY, this.record);
+      this.#follow();
+      return;
+    }
     this.#following?.abort();
     this.record = null;
     this.phase = "idle";
@@ -82,6 +92,7 @@ export class ServerRun extends EventTarget {
         return;
       }
       record.id = job.id;
+      this.#previous = null;
       save(KEY, record);
       this.#hear(job);
     } catch (error) {

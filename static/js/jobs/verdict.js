@@ -6,7 +6,7 @@
  * - "pending", "none": the server has no report yet; it ended without one;
  * - "misread": the server gives the submitted document another hash, so it means another scenario there;
  * - "changed": the page's settings are others now;
- * - "computing", "unable": the browser has no result yet; its run failed;
+ * - "computing", "stopped", "unable": the browser has no result yet; its run was stopped; it failed;
  * - "same", "same-diverged": equal bits;
  * - "version": other bits from another version of the core;
  * - "different": other bits from the same version.
@@ -29,6 +29,9 @@ export function verdict({ submitted, report, ended, shown, local }) {
   }
   if (local?.failure) {
     return "unable";
+  }
+  if (local?.stoppedAt !== undefined) {
+    return "stopped";
   }
   if (local?.report?.scenario_hash !== submitted) {
     return "computing";

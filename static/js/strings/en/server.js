@@ -43,6 +43,7 @@ export const server = {
     pending: "no result yet",
     none: "no result",
     computing: "this browser is computing",
+    stopped: "stopped in this browser",
     unable: "no result in this browser",
   },
   explanations: {
@@ -54,6 +55,7 @@ export const server = {
     misread: "The server reads the submitted document as another scenario, as another version of the core may. Reload the page.",
     hidden: "A scheme that was hidden when this was submitted was not computed. Show it and submit again.",
     none: "The job ended before the scheme had a result.",
+    stopped: "The run was stopped in this browser, so there is nothing to compare with. Start it again on its card.",
     unable: "The run failed in this browser, so there is nothing to compare with.",
   },
 

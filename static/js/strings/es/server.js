@@ -43,6 +43,7 @@ export const server = {
     pending: "aún sin resultado",
     none: "sin resultado",
     computing: "este navegador está calculando",
+    stopped: "detenido en este navegador",
     unable: "sin resultado en este navegador",
   },
   explanations: {
@@ -55,6 +56,7 @@ export const server = {
     misread: "El servidor lee el documento enviado como otro escenario, como puede hacer otra versión del núcleo. Recargue la página.",
     hidden: "Un esquema oculto al enviar no se calculó. Muéstrelo y envíe de nuevo.",
     none: "El trabajo terminó antes de que el esquema tuviera un resultado.",
+    stopped: "La ejecución se detuvo en este navegador, así que no hay con qué comparar. Iníciela de nuevo en su tarjeta.",
     unable: "La ejecución falló en este navegador, así que no hay con qué comparar.",
   },
 
