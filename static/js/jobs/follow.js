@@ -44,7 +44,7 @@ export async function follow(id, { hear, trouble = () => {} }, signal) {
         throw error;
       }
       trouble(error);
-      broken = 1;
+      broken = 0;
       await rest(error.retryAfter ? error.retryAfter * 1000 : pause * (0.75 + 0.5 * Math.random()), signal);
       pause = Math.min(2 * pause, LONGEST_PAUSE_MS);
     }
@@ -81,10 +81,10 @@ async function stream(id, heard, hear, trouble, signal) {
     await readEvents(response.body, onEvent, alive);
   } catch (error) {
     signal?.throwIfAborted();
-    if (error instanceof ApiError) {
+    if (error instanceof ApiError && !error.isPassing) {
       throw error;
     }
-    // Broke off in the middle, or silent for too long.
+    // Could not be had, broke off in the middle, or was silent for too long. Whether the server is there, the caller asks.
   } finally {
     clearTimeout(timer);
   }
