@@ -7,6 +7,7 @@ import { announce } from "./announce.js";
 import { byId, element } from "./dom.js";
 import { formatSeconds } from "./format.js";
 import { History } from "./history.js";
+import { takeHandover } from "./handover.js";
 import { Laboratory } from "./laboratory.js";
 import { buildMasthead } from "./masthead.js";
 import { notice } from "./notice.js";
@@ -139,6 +140,7 @@ function build(app) {
   });
   laboratory.begin(pool);
   pins.begin();
+  takeHandover(app);
 }
 
 function buildCards(app) {

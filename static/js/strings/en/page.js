@@ -94,7 +94,7 @@ export const page = {
   settlingNote: (e, de) => `Settled: |e| stays within ${e}°, |ė| within ${de}°/s. A dash means never, or does not apply.`,
 
   colophon: (version) =>
-    `adaptarm core ${version}. Computed in this browser by the same Rust core as on the server; nothing is sent anywhere.`,
+    `adaptarm core ${version}. Computed in this browser by the same Rust core as on the server. Nothing is sent anywhere, unless you run it on the server.`,
   moduleMissing: (reason) =>
     `The simulation module did not load (${reason}). If you serve this page from source, run “cargo xtask dist” and reload.`,
   workerRestarted: "A background worker stopped and was restarted; its run was started again.",

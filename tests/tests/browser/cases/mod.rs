@@ -6,12 +6,14 @@ mod figures;
 mod compare;
 mod identity;
 mod input;
+mod jobs;
 mod keyboard;
 mod latency;
 mod links;
 mod long_runs;
 mod pinned;
 mod resilience;
+mod server_run;
 mod sliders;
 
 use crate::bench::Bench;
@@ -51,6 +53,18 @@ pub const ALL: &[(&str, Case)] = &[
         long_runs::a_long_run_is_drawn_while_it_computes_and_can_be_stopped,
     ),
     ("a_stopped_run_can_be_started_again", long_runs::a_stopped_run_can_be_started_again),
+    ("the_server_gives_the_bits_that_the_browser_has", server_run::the_server_gives_the_same_bits),
+    ("other_settings_than_the_submitted_ones_are_explained", server_run::other_settings_are_explained),
+    ("a_run_on_the_server_survives_server_and_page", server_run::a_run_survives_server_and_page),
+    ("a_server_that_is_gone_loses_nothing", server_run::a_server_that_is_gone_loses_nothing),
+    ("what_the_server_refuses_is_said", server_run::what_the_server_refuses_is_said),
+    ("a_server_that_wants_a_token_is_given_one", server_run::a_token_is_asked_for),
+    ("a_run_on_the_server_is_followed_without_a_stream", server_run::a_run_is_followed_without_a_stream),
+    ("a_phone_shows_the_run_on_the_server", server_run::a_phone_shows_the_run_on_the_server),
+    ("the_jobs_page_lists_filters_cancels_and_deletes", jobs::the_jobs_page_lists_filters_cancels_and_deletes),
+    ("a_job_shows_its_results_and_opens_in_the_playground", jobs::a_job_opens_in_the_playground),
+    ("a_study_is_submitted_by_hand", jobs::a_study_is_submitted_by_hand),
+    ("the_jobs_page_fits_a_phone", jobs::the_jobs_page_fits_a_phone),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
