@@ -5,12 +5,14 @@
 
 #[cfg(target_arch = "wasm32")]
 mod canvas;
+mod claims;
 mod describe;
 mod failure;
 mod plotter;
 mod run;
 mod runs;
 
+pub use claims::claims;
 pub use describe::describe;
 pub use run::{Run, check};
 pub use runs::Runs;
