@@ -8,11 +8,13 @@ mod canvas;
 mod claims;
 mod describe;
 mod failure;
+mod feedback;
 mod plotter;
 mod run;
 mod runs;
 
 pub use claims::claims;
 pub use describe::describe;
+pub use feedback::sliding_rms;
 pub use run::{Run, check};
 pub use runs::Runs;
