@@ -1,6 +1,6 @@
 // The tour's panel: docked at the head of the controls, a sheet at the bottom where there is one column. Says one step.
 
-import { element } from "../dom.js";
+import { element, symbol } from "../dom.js";
 import { strings } from "../strings/index.js";
 
 export class TourPanel {
@@ -28,8 +28,7 @@ export class TourPanel {
         element("button", { type: "button", class: "info-close", id: "tour-close", "aria-label": words.close, onclick: () => handlers.close() }, "×"),
       ),
       element("div", { class: "tour-body", "aria-live": "polite" }, this.#title, this.#text, this.#verdict),
-      this.#choices,
-      element("div", { class: "tour-foot" }, this.#back, this.#next),
+      element("div", { class: "tour-foot" }, this.#choices, element("div", { class: "tour-nav" }, this.#back, this.#next)),
     );
   }
 
@@ -39,7 +38,7 @@ export class TourPanel {
     this.node.hidden = false;
     this.#progress.textContent = words.progress(number, count);
     this.#title.textContent = title;
-    this.#text.replaceChildren(...paragraphs.map((text) => element("p", {}, text)));
+    this.#text.replaceChildren(...paragraphs.map((text) => element("p", {}, symbol(text))));
     this.#choices.replaceChildren(...choices);
     this.#verdict.replaceChildren();
     this.#next.textContent = number === count ? words.finish : words.next;
