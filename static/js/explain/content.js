@@ -19,7 +19,7 @@ export const CONTENT = {
     content: (id) => ({ nodes: signalNodes(id) }),
   },
   figure: {
-    name: (id) => (signalOf(id) ? strings.explain.figure(strings.figure[id] ?? strings.explain.signals[signalOf(id)].name) : null),
+    name: (id) => strings.explain.signals[signalOf(id)]?.name ?? null,
     content: (id) => ({ nodes: signalNodes(signalOf(id)) }),
   },
   scheme: {

@@ -3,6 +3,7 @@
 /** Signals by name; `source` is an equation or figure of the paper, null where the paper has none. */
 export const SIGNALS = {
   e: { equations: ["e = q − q_d"], unit: "°", source: "7" },
+  q: { equations: ["q = q_d + e"], unit: "°", source: "7, 24" },
   de: { equations: ["dot(e) = dot(q) − dot(q)_d"], unit: "°/s", source: "7" },
   z: { equations: ["z = q − hat(q)", "dot(ξ) = z"], unit: "°", source: "21" },
   s: { equations: ["s = dot(q) − dot(q)_r = dot(e) + Λ e", "s_o = dot(q)_o − dot(q)_r"], unit: "rad/s", source: "6, 15" },
@@ -23,6 +24,7 @@ export const SIGNALS = {
 const FIGURES = [
   ["tracking_errors", "e"],
   ["velocity_errors", "de"],
+  ["positions", "q"],
   ["observer_errors", "z"],
   ["torque_parts", "torque_parts"],
   ["torques", "tau"],

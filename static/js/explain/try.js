@@ -19,7 +19,7 @@ export function tryIt(gain, scheme, { laboratory, state }) {
   const set = (value) => {
     const failure = laboratory.edit([scheme.id], pointer, value);
     outcome.textContent = failure ? failure.message : texts.computing;
-    if (!failure && laboratory.isCurrent(scheme.id)) {
+    if (!failure) {
       show();
     }
   };
@@ -34,8 +34,8 @@ export function tryIt(gain, scheme, { laboratory, state }) {
     return gain.shape === "scalar" ? values[0] : values;
   };
   const show = () => {
-    if (laboratory.isCurrent(scheme.id)) {
-      const now = indices(laboratory.results[scheme.id].report);
+    const now = laboratory.isCurrent(scheme.id) ? indices(laboratory.results[scheme.id].report) : null;
+    if (now) {
       outcome.replaceChildren(texts.now(now), element("span", { class: "note" }, before ? texts.before(before) : ""));
     }
   };

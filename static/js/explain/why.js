@@ -12,8 +12,8 @@ const FEEDBACK = { proposed: "k_v", tang_arteaga: "k_s", slotine_li: "k_s" };
 const BEHIND = {
   inertia: [[8], [9, 2, 5, 7], [10, 2, 5, 7]],
   coriolis: [[1, 3, 4, 5, 6, 7], [1, 3, 4, 5, 6, 7], [1, 5, 6, 7]],
-  viscous: [[11], [12], [13]],
-  coulomb: [[14], [15], [16]],
+  viscous_friction: [[11], [12], [13]],
+  dry_friction: [[14], [15], [16]],
   gravity: [[], [17, 18], [18]],
 };
 const DEGREES = 180 / Math.PI;
@@ -36,7 +36,11 @@ export function buildWhy(section, { bindings, runs, description, laboratory }) {
   function show() {
     const scheme = description.schemes.find(({ id }) => id === choice.value);
     const result = laboratory.results[scheme.id];
-    if (!result?.report) {
+    if (!laboratory.isReady) {
+      return;
+    }
+    if (!result.report) {
+      title.textContent = words.titleNone;
       body.replaceChildren();
       return;
     }

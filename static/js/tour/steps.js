@@ -17,8 +17,8 @@ export const STEPS = [
   { id: "third_joint_velocity_stays", claim: true, targets: [figure("velocity_errors")] },
   { id: "observer_replaces_the_sensor", claim: true, targets: ['[data-table="index_de_deg_s"]'] },
   { id: "observer_peaks", claim: true, targets: [figure("observer_errors")] },
-  { id: "estimates_become_constant", claim: true, targets: ["#estimates"] },
-  { id: "closest_estimates", claim: true, targets: ["#estimates"] },
+  { id: "estimates_become_constant", claim: true, targets: [figure("estimates"), "#estimates"] },
+  { id: "closest_estimates", claim: true, targets: [figure("estimates"), "#estimates"] },
   { id: "proposed_best", claim: true, targets: [INDICES] },
   { id: "now", targets: ["#why"] },
 ];

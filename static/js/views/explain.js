@@ -2,13 +2,14 @@
 
 import { byId } from "../dom.js";
 import { buildGlossary } from "../explain/glossary.js";
-import { prepareInfo } from "../explain/info.js";
+import { infoButton, prepareInfo } from "../explain/info.js";
 import { buildWhy } from "../explain/why.js";
 
 /** Builds it. */
 export function buildExplain(app) {
   prepareInfo(app);
   buildGlossary(byId("tour-start"));
+  addToFigures();
   const show = buildWhy(byId("why"), app);
   let pending = null;
   app.laboratory.addEventListener("result", () => {
@@ -20,4 +21,12 @@ export function buildExplain(app) {
       }
     });
   });
+}
+
+/** A button in the head of every figure among the results, beside the figure's own tools where it has some. */
+function addToFigures() {
+  for (const card of document.querySelectorAll(".results figure-card")) {
+    const place = card.querySelector(".figure-tools") ?? card.querySelector(".figure-head");
+    place.append(infoButton("figure", card.dataset.figure) ?? "");
+  }
 }

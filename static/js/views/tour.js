@@ -9,7 +9,6 @@ import { strings } from "../strings/index.js";
 import { TourPanel } from "../tour/panel.js";
 import { Settings } from "../tour/settings.js";
 import { DURATIONS, STEPS } from "../tour/steps.js";
-import { failureOf } from "../wasm.js";
 
 /** Builds it. */
 export function buildTour(app) {
@@ -165,13 +164,13 @@ export function buildTour(app) {
       panel.verdict = [element("p", { class: "note" }, words.computing)];
       return;
     }
-    try {
-      const reports = Object.fromEntries(Object.entries(laboratory.results).map(([id, { report }]) => [id, report]));
-      const claims = JSON.parse(bindings.claims(runs, JSON.stringify(reports)));
-      panel.verdict = step.claim ? verdictOf(claims.find(({ id }) => id === step.id)) : summary(claims);
-    } catch (error) {
-      panel.verdict = [element("p", { class: "note" }, failureOf(error).message)];
+    const reports = Object.fromEntries(Object.entries(laboratory.results).map(([id, { report }]) => [id, report]));
+    if (Object.values(reports).includes(undefined)) {
+      panel.verdict = [element("p", { class: "note" }, words.unfinished)];
+      return;
     }
+    const claims = JSON.parse(bindings.claims(runs, JSON.stringify(reports)));
+    panel.verdict = step.claim ? verdictOf(claims.find(({ id }) => id === step.id)) : summary(claims);
   }
 
   function verdictOf(claim) {

@@ -7,9 +7,7 @@ import { why } from "./explain/why.js";
 
 export const explain = {
   about: (name) => `What is ${name}?`,
-  figure: (title) => `the figure “${title}”`,
   close: "Close",
-  equation: "Equation",
   source: (number) => `Paper, eq. ${number}.`,
   mended: "The printed equation has a misprint; this is the form that is computed.",
   noSource: "Not in the paper.",

@@ -8,6 +8,7 @@ export const tour = {
   finish: "Finish",
   progress: (number, count) => `${number} of ${count}`,
   computing: "computing…",
+  unfinished: "A run has no result yet, so nothing can be judged.",
   over: "Simulated:",
   seconds: (duration) => `${duration} s`,
   restore: "Bring back my settings",

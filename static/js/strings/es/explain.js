@@ -7,9 +7,7 @@ import { why } from "./explain/why.js";
 
 export const explain = {
   about: (name) => `¿Qué es ${name}?`,
-  figure: (title) => `la figura «${title}»`,
   close: "Cerrar",
-  equation: "Ecuación",
   source: (number) => `Artículo, ec. ${number}.`,
   mended: "La ecuación impresa tiene una errata; esta es la forma que se calcula.",
   noSource: "No está en el artículo.",

@@ -31,6 +31,7 @@ export const tour = {
   finish: "Terminar",
   progress: (number, count) => `${number} de ${count}`,
   computing: "calculando…",
+  unfinished: "Falta el resultado de una simulación, así que nada se puede juzgar.",
   over: "Simulados:",
   seconds: (duration) => `${duration} s`,
   restore: "Volver a mis ajustes",

@@ -6,6 +6,11 @@ export const signals = {
     what: "Where a joint is minus where it should be. Everything the controllers do has the aim to make it small.",
     read: "A curve around zero is good. Its root mean square over the samples is the performance index I(e) of Table 1.",
   },
+  q: {
+    name: "the joint position q",
+    what: "The angle of each joint beside the desired one: a sum of three sines around the starting position.",
+    read: "The curves lie on one another unless something is badly wrong; the tracking error shows the difference.",
+  },
   de: {
     name: "the velocity error ė",
     what: "How fast a joint turns minus how fast it should. It is computed from the true velocity, also for the scheme that does not measure it.",

@@ -3,8 +3,8 @@
 const part = {
   inertia: "inertia",
   coriolis: "Coriolis and centrifugal torque",
-  viscous: "viscous friction",
-  coulomb: "dry friction",
+  viscous_friction: "viscous friction",
+  dry_friction: "dry friction",
   gravity: "gravity",
 };
 

@@ -6,6 +6,11 @@ export const signals = {
     what: "Dónde está una articulación menos dónde debería estar. Todo lo que hacen los controladores busca hacerlo pequeño.",
     read: "Una curva junto a cero es buena. Su media cuadrática sobre las muestras es el índice I(e) de la tabla 1.",
   },
+  q: {
+    name: "la posición articular q",
+    what: "El ángulo de cada articulación junto al deseado: una suma de tres senos en torno a la posición inicial.",
+    read: "Las curvas coinciden salvo que algo vaya muy mal; la diferencia la muestra el error de seguimiento.",
+  },
   de: {
     name: "el error de velocidad ė",
     what: "Con qué rapidez gira una articulación menos con cuál debería. Se calcula con la velocidad verdadera, también para el esquema que no la mide.",

@@ -3,8 +3,8 @@
 const part = {
   inertia: "inercia",
   coriolis: "par de Coriolis y centrífugo",
-  viscous: "fricción viscosa",
-  coulomb: "fricción seca",
+  viscous_friction: "fricción viscosa",
+  dry_friction: "fricción seca",
   gravity: "gravedad",
 };
 
