@@ -72,7 +72,14 @@ function item(tokens) {
     identifier.classList.toggle("upright", token.length > 1 || /^[Α-Ω]/u.test(token));
     return identifier;
   }
-  return mathElement("mo", token);
+  return operator(token);
+}
+
+/** An operator at its own size: nothing here is so high that parentheses had to grow with it. */
+function operator(text) {
+  const node = mathElement("mo", text);
+  node.setAttribute("stretchy", "false");
+  return node;
 }
 
 /** What stands in the parentheses after a name, which are open. */
@@ -85,11 +92,9 @@ function applied(name, tokens) {
     return mathElement("msqrt", inner);
   }
   if (name in FENCES) {
-    return mathElement("mrow", mathElement("mo", FENCES[name]), inner, mathElement("mo", FENCES[name]));
+    return mathElement("mrow", operator(FENCES[name]), inner, operator(FENCES[name]));
   }
-  const mark = mathElement("mo", ACCENTS[name]);
-  mark.setAttribute("stretchy", "false");
-  const over = mathElement("mover", mathElement("mrow", inner), mark);
+  const over = mathElement("mover", mathElement("mrow", inner), operator(ACCENTS[name]));
   over.setAttribute("accent", "true");
   return over;
 }

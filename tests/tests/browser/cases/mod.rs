@@ -1,6 +1,8 @@
 //! The cases, by name.
 
 mod appearance;
+mod explain;
+mod gains_said;
 mod identity;
 mod input;
 mod keyboard;
@@ -9,6 +11,7 @@ mod long_runs;
 mod pinned;
 mod resilience;
 mod sliders;
+mod tour;
 
 use crate::bench::Bench;
 use anyhow::Result;
@@ -41,4 +44,20 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
+    ("everything_has_an_info_button_with_an_equation", explain::everything_has_an_info_button_with_an_equation),
+    ("a_gain_is_tried_and_put_back", explain::a_gain_is_tried_and_put_back),
+    ("the_glossary_lists_every_symbol", explain::the_glossary_lists_every_symbol),
+    ("why_a_joint_is_worst_follows_the_run", explain::why_a_joint_is_worst_follows_the_run),
+    ("explanations_are_in_both_languages", explain::explanations_are_in_both_languages),
+    ("what_is_said_of_gains_is_so", gains_said::what_is_said_of_gains_is_so),
+    (
+        "the_tour_goes_by_keyboard_and_judges_as_the_replication",
+        tour::the_tour_goes_by_keyboard_and_judges_as_the_replication,
+    ),
+    ("escape_ends_the_tour_and_the_settings_come_back", tour::escape_ends_the_tour_and_the_settings_come_back),
+    ("the_tour_judges_longer_runs", tour::the_tour_judges_longer_runs),
+    (
+        "on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of",
+        tour::on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of,
+    ),
 ];
