@@ -10,6 +10,7 @@
 
 pub mod adaptation;
 pub mod control;
+pub mod decomposition;
 pub mod dynamics;
 pub mod experiments;
 #[cfg(feature = "figures")]

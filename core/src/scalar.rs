@@ -80,6 +80,12 @@ pub(crate) fn power(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// Inverse hyperbolic sine, for axes that are linear about zero and logarithmic far from it; libm on every target.
+#[cfg(feature = "figures")]
+pub(crate) fn inverse_sinh(x: f64) -> f64 {
+    libm::asinh(x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

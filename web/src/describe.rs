@@ -51,6 +51,7 @@ fn description() -> Description {
             "title": figure.title(),
             "paper_number": figure.paper_number(),
             "natural_size": figure.natural_size(),
+            "has_symlog": figure.has_symlog(),
         })),
         "plot_background": { "light": hex(Theme::Light.background()), "dark": hex(Theme::Dark.background()) },
     });

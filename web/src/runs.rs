@@ -1,8 +1,10 @@
 //! The runs that the page shows: figures, arm and read-outs all look at these samples; each is held once.
 
 use crate::failure::{Failure, read};
+use adaptarm_core::decomposition::TorqueParts;
 use adaptarm_core::recording::{Columns, Recording};
 use adaptarm_core::scenario::Scenario;
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -15,6 +17,17 @@ pub(crate) struct ShownRun {
     pub recording: Recording,
     /// Whether it reached its duration.
     pub completed: bool,
+    /// True parameters of its arm.
+    pub theta: Vec<f64>,
+    /// Its torques, split; computed when first asked for.
+    parts: OnceCell<TorqueParts>,
+}
+
+impl ShownRun {
+    /// Its torques, split into what they are spent on.
+    pub fn torque_parts(&self) -> &TorqueParts {
+        self.parts.get_or_init(|| self.scenario.torque_parts(&self.recording))
+    }
 }
 
 /// Runs by the page's names for them.
@@ -42,16 +55,31 @@ impl Runs {
     pub fn remove(&mut self, id: &str) {
         self.runs.remove(id);
     }
+
+    /// All samples of a run as a comma-separated table with a header, as the command line and the server write it. Throws JSON
+    /// text `{pointer, message}` if there is no such run.
+    pub fn csv(&self, id: &str) -> Result<String, JsValue> {
+        let run = self.get(id).ok_or_else(|| Failure::new(format!("there is no run {id:?}")))?;
+        Ok(run.recording.to_csv())
+    }
 }
 
 impl Runs {
-    fn insert(&mut self, id: &str, scenario_json: &str, rows: Vec<f64>, completed: bool) -> Result<(), Failure> {
+    pub(crate) fn insert(
+        &mut self,
+        id: &str,
+        scenario_json: &str,
+        rows: Vec<f64>,
+        completed: bool,
+    ) -> Result<(), Failure> {
         let scenario = read(scenario_json)?;
         let robot = scenario.robot();
         let columns = Columns { joints: robot.joint_count(), parameters: robot.parameter_count() };
         let recording = Recording::from_rows(columns, rows)
             .ok_or_else(|| Failure::new("the samples end in the middle of a row".to_owned()))?;
-        self.runs.insert(id.to_owned(), ShownRun { scenario, recording, completed });
+        let theta = scenario.theta();
+        let run = ShownRun { scenario, recording, completed, theta, parts: OnceCell::new() };
+        self.runs.insert(id.to_owned(), run);
         Ok(())
     }
 
@@ -77,5 +105,14 @@ mod tests {
         assert!(runs.get("a").is_some_and(|run| run.recording.is_empty()));
         runs.remove("a");
         assert!(runs.get("a").is_none());
+    }
+
+    #[test]
+    fn a_table_has_every_sample_of_its_run() {
+        let mut runs = Runs::new();
+        runs.insert("a", SCENARIO, vec![0.5; 2 * 37], true).unwrap();
+        let Ok(csv) = runs.csv("a") else { panic!("the run exists") };
+        assert_eq!(csv.lines().count(), 3);
+        assert!(csv.starts_with("t_s,e_deg_1,"));
     }
 }

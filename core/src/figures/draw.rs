@@ -1,124 +1,94 @@
-//! How a figure looks: a legend on top, panels with labelled axes and light grids, one time axis title at the bottom.
+//! How a figure is laid out: a legend on top, panels side by side and below each other, one time axis title at the bottom.
 
-use super::axes::{format_tick, tick_step, value_range};
-use super::decimate::decimate;
+use super::figure::Figure;
 use super::legend::draw_legend;
-use super::panels::{Figure, Panel, PlottedRun};
-use super::pen::{DrawError, Pen, draw_line, rgb};
-use super::style::{Dash, Style, scheme_style};
+use super::panel::{Cell, PanelPlace, Scratch, Shared, draw_panel};
+use super::panels::{Key, Panel, panels};
+use super::path::Frame;
+use super::run::PlottedRun;
+use super::style::Line;
+use super::surface::{Anchor, DrawError, Pen, Surface};
+use super::view::{AxisKind, View};
 use crate::robots::RobotData;
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::Pos;
 
-/// Line of a parameter's true value.
-const TRUTH_DASH: Dash = Dash(Some((1, 2)));
-
-/// Draws a figure of `runs` on `robot` into the whole area. Runs that do not belong into the figure are left out.
-pub fn draw<DB: DrawingBackend>(
-    area: &DrawingArea<DB, Shift>,
+/// Draws a figure of `runs` on `robot` over the whole surface; says where its panels are.
+///
+/// Runs that do not belong into the figure are left out.
+pub fn draw<S: Surface>(
+    surface: &mut S,
     figure: Figure,
     robot: &RobotData,
     runs: &[PlottedRun<'_>],
-    style: Style,
-) -> Result<(), DrawError> {
-    let pen = Pen { style };
-    area.fill(&rgb(style.theme.background()))?;
-    let runs: Vec<_> = runs.iter().copied().filter(|run| figure.shows(run.scheme)).collect();
-    // Runs side by side are runs of one arm.
-    let panels = figure.panels(robot, runs.first().map_or(&[], |run| run.theta_true));
-    let mut entries: Vec<_> =
-        runs.iter().map(|run| (run.scheme.name(), scheme_style(run.scheme, style.theme))).collect();
-    if panels.iter().any(|panel| panel.truth.is_some()) {
-        entries.push(("true value", (style.theme.truth(), TRUTH_DASH)));
-    }
-    let body = draw_legend(area, &entries, &pen)?;
-    let columns = figure.columns(f64::from(area.dim_in_pixel().0) / style.scale);
+    view: &View<'_>,
+) -> Result<Vec<PanelPlace>, DrawError> {
+    let (width, height) = surface.get_size();
+    let whole = Frame { left: 0.0, top: 0.0, right: f64::from(width), bottom: f64::from(height) };
+    let mut pen = Pen { surface, style: view.style };
+    pen.fill(whole, view.style.theme.background())?;
+    let panels = panels(figure, robot, runs, view);
+    let top = draw_legend(&mut pen, whole.right, &entries(figure, &panels, runs, view))?;
+
+    let over_time = panels.iter().all(|panel| panel.x_label.is_none());
+    let bottom = if over_time { whole.bottom - pen.px(16.0) } else { whole.bottom };
+    let columns = figure.columns(whole.right / view.style.scale);
     let rows = panels.len().div_ceil(columns);
-    let cells = body.split_evenly((rows, columns));
-    let end_s = runs.iter().filter_map(|run| run.recording.times_s().next_back()).fold(0.0, f64::max);
-    for (n, (cell, panel)) in cells.iter().zip(&panels).enumerate() {
-        let last_row = n + columns >= panels.len();
-        draw_panel(cell, panel, &runs, if end_s > 0.0 { end_s } else { 1.0 }, last_row, &pen)?;
+    let shared = Shared {
+        runs,
+        window: window(figure, runs, view),
+        kind: if figure.has_symlog() { view.axis } else { AxisKind::Linear },
+    };
+    let mut scratch = Scratch::default();
+    let mut places = Vec::with_capacity(panels.len());
+    for (n, panel) in panels.iter().enumerate() {
+        let (row, column) = (n / columns, n % columns);
+        let share = |from: f64, to: f64, index: usize, count: usize| from + (to - from) * index as f64 / count as f64;
+        let frame = Frame {
+            left: share(0.0, whole.right, column, columns).round(),
+            right: share(0.0, whole.right, column + 1, columns).round(),
+            top: share(top, bottom, row, rows).round(),
+            bottom: share(top, bottom, row + 1, rows).round(),
+        };
+        let place = draw_panel(&mut pen, &Cell { frame }, panel, &shared, &mut scratch)?;
+        if over_time && n + columns >= panels.len() {
+            let at = (f64::midpoint(place.left, place.right), frame.bottom - pen.px(2.0));
+            pen.text(view.texts.time_axis, at, 12.5, view.style.theme.ink(), Anchor::Top)?;
+        }
+        places.push(place);
     }
-    Ok(())
+    Ok(places)
 }
 
-fn draw_panel<DB: DrawingBackend>(
-    area: &DrawingArea<DB, Shift>,
-    panel: &Panel,
-    runs: &[PlottedRun<'_>],
-    end_s: f64,
-    last_row: bool,
-    pen: &Pen,
-) -> Result<(), DrawError> {
-    let theme = pen.style.theme;
-    let values = |run: &PlottedRun<'_>| -> Vec<(f64, f64)> {
-        let samples = run.recording.signal(panel.signal, panel.component).map(|x| x * panel.factor);
-        run.recording.times_s().zip(samples).collect()
-    };
-    let curves: Vec<_> = runs.iter().map(|run| (run, values(run))).collect();
-    let range = {
-        let curves: Vec<_> = curves.iter().map(|(run, points)| (points.as_slice(), run.completed)).collect();
-        value_range(&curves, panel.truth)
-    };
+/// What is shown, s: what the view asks for, or all there is.
+fn window(figure: Figure, runs: &[PlottedRun<'_>], view: &View<'_>) -> (f64, f64) {
+    view.window_s.unwrap_or_else(|| {
+        let shown = runs.iter().filter(|run| figure.shows(run.scheme));
+        let end_s = shown.filter_map(PlottedRun::end_s).fold(0.0, f64::max);
+        (0.0, if end_s > 0.0 { end_s } else { 1.0 })
+    })
+}
 
-    let mut chart = ChartBuilder::on(area)
-        .margin_right(pen.px(12.0))
-        .margin_left(pen.px(4.0))
-        .margin_top(pen.px(6.0))
-        .set_label_area_size(LabelAreaPosition::Left, pen.px(66.0))
-        .set_label_area_size(LabelAreaPosition::Bottom, pen.px(if last_row { 36.0 } else { 20.0 }))
-        .build_cartesian_2d(0.0..end_s, range.0..range.1)?;
-    let label = pen.text(11.0, theme.ink(), Pos::default());
-    let step = tick_step(range.1 - range.0);
-    // As many as the panel has room for.
-    let y_labels = ((f64::from(area.dim_in_pixel().1) / pen.style.scale / 28.0) as usize).clamp(2, 5);
-    let format_y = |y: &f64| format_tick(*y, step);
-    let format_t = |t: &f64| format_tick(*t, tick_step(end_s));
-    let mut mesh = chart.configure_mesh();
-    mesh.disable_x_mesh()
-        .set_all_tick_mark_size(pen.px(4.0))
-        .max_light_lines(0)
-        .x_labels(7)
-        .y_labels(y_labels)
-        .bold_line_style(rgb(theme.grid()).stroke_width(pen.stroke(1.0)))
-        .axis_style(rgb(theme.ink()).stroke_width(pen.stroke(1.0)))
-        .label_style(label.clone())
-        .y_label_formatter(&format_y)
-        .x_label_formatter(&format_t)
-        .y_desc(panel.label.clone())
-        .axis_desc_style(pen.text(12.5, theme.ink(), Pos::default()));
-    if last_row {
-        mesh.x_desc("t [s]");
-    }
-    mesh.draw()?;
-
-    let plot = chart.plotting_area();
-    let (xs, ys) = plot.get_pixel_range();
-    let to_pixel = |(t, y): (f64, f64)| {
-        let x = f64::from(xs.start) + t / end_s * f64::from(xs.end - xs.start);
-        // What leaves the range runs along its edge.
-        let v = (y.clamp(range.0, range.1) - range.0) / (range.1 - range.0);
-        (x, f64::from(ys.end) - v * f64::from(ys.end - ys.start))
+/// Names of the lines: of runs in the caller's order, of parts in the equation's, of what they are compared with.
+fn entries<'a>(figure: Figure, panels: &[Panel], runs: &[PlottedRun<'a>], view: &View<'a>) -> Vec<(&'a str, Line)> {
+    let theme = view.style.theme;
+    let mut curves: Vec<_> =
+        panels.first().map_or(&[][..], |panel| &panel.curves).iter().map(|curve| (curve.key, curve.line)).collect();
+    curves.sort_by_key(|(key, _)| match key {
+        Key::Run(n) | Key::Part(n) => *n,
+        Key::Total => usize::MAX,
+    });
+    let name = |key| match key {
+        Key::Run(run) => runs[run].name(),
+        Key::Part(part) => view.texts.parts[part],
+        Key::Total => view.texts.total,
     };
-    // Pixels of the whole drawing, not of this panel.
-    let canvas = plot.strip_coord_spec();
-    let (left, top) = canvas.get_base_pixel();
-    // Two to four points per layout pixel: finer is invisible and makes documents large.
-    let columns = (f64::from(xs.end - xs.start) / pen.style.scale).ceil().max(1.0) as usize;
-    let local = |point| {
-        let (x, y): (f64, f64) = to_pixel(point);
-        (x - f64::from(left), y - f64::from(top))
-    };
-    if let Some(truth) = panel.truth {
-        let line = [local((0.0, truth)), local((end_s, truth))];
-        draw_line(&canvas, &line, theme.truth(), TRUTH_DASH, pen)?;
+    let mut entries: Vec<_> = curves.into_iter().map(|(key, line)| (name(key), line)).collect();
+    if panels.iter().any(|panel| panel.reference.is_some()) {
+        let name = if figure == Figure::Positions { "desired" } else { "true value" };
+        entries.push((view.texts.reference.unwrap_or(name), Line::of_reference(theme)));
     }
-    for (run, points) in &curves {
-        let (color, dash) = scheme_style(run.scheme, theme);
-        let line: Vec<_> = decimate(points.iter().copied(), (0.0, end_s), columns).into_iter().map(local).collect();
-        draw_line(&canvas, &line, color, dash, pen)?;
+    if panels.iter().any(|panel| panel.limit.is_some()) {
+        let name = if figure == Figure::Voltages { "supply limit" } else { "effort limit" };
+        entries.push((view.texts.limit.unwrap_or(name), Line::of_limit(theme)));
     }
-    Ok(())
+    entries
 }

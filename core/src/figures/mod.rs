@@ -1,18 +1,32 @@
 //! The study's figures, drawn through any plotters backend: canvas in the browser, SVG and PNG on the server.
 //!
-//! `panels` decides what a figure shows, `draw` how a panel looks, `style` its colours and sizes. One code for all targets.
+//! `figure` says which there are, `panels` what each shows, `draw` and `panel` how that looks, `readout` what it says in
+//! numbers. One code for all targets.
 
 mod axes;
 mod decimate;
 mod draw;
+mod figure;
 mod legend;
+mod panel;
 mod panels;
-mod pen;
+mod path;
+mod readout;
+mod run;
 mod style;
+mod surface;
 mod svg;
+mod ticks;
+mod view;
 
 pub use draw::draw;
-pub use panels::{Figure, PlottedRun};
-pub use pen::DrawError;
+pub use figure::Figure;
+pub use panel::PanelPlace;
+pub use panels::Key;
+pub use path::Path;
+pub use readout::{PanelReading, Reading, Value, read};
+pub use run::PlottedRun;
 pub use style::{Dash, Rgb, Style, Theme, scheme_style};
+pub use surface::{DrawError, Stroke, Surface};
 pub use svg::svg;
+pub use view::{AxisKind, Texts, View};

@@ -1,169 +1,190 @@
-//! What each figure shows: its panels, their labels and curves. Nothing here draws.
+//! What each figure shows: its panels, their labels, curves, references and limits. Nothing here draws.
 
-use crate::recording::{Recording, Signal};
+use super::figure::Figure;
+use super::run::{PlottedRun, Quantity};
+use super::style::{Line, part_line, scheme_style, total_line};
+use super::view::View;
+use crate::decomposition::PARTS;
+use crate::recording::{Columns, Signal};
 use crate::robots::RobotData;
-use crate::scenario::Scheme;
-
-/// A run to be plotted.
-#[derive(Debug, Clone, Copy)]
-pub struct PlottedRun<'a> {
-    /// Its scheme, which decides colour, dash and name.
-    pub scheme: Scheme,
-    /// Its samples.
-    pub recording: &'a Recording,
-    /// Whether it reached its duration; the last values of a diverged run must not decide a panel's range.
-    pub completed: bool,
-    /// True parameters of its arm; none are drawn if it is empty.
-    pub theta_true: &'a [f64],
-}
-
-/// A figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Figure {
-    /// Joint tracking errors. Paper figure 2.
-    TrackingErrors,
-    /// Joint velocity errors. Paper figure 3.
-    VelocityErrors,
-    /// Observer errors. Paper figure 4.
-    ObserverErrors,
-    /// Estimates of θ1 to θ6. Paper figure 5.
-    Estimates1,
-    /// Estimates of θ7 to θ12. Paper figure 6.
-    Estimates2,
-    /// Estimates of θ13 to θ18. Paper figure 7.
-    Estimates3,
-    /// Joint torques and the motor voltages they need.
-    Torques,
-}
 
 /// One plot within a figure.
 pub(super) struct Panel {
     /// What it shows, as symbol and unit: `e1 [°]`.
     pub label: String,
-    /// Signal and component.
-    pub signal: Signal,
-    /// Component of the signal, from 0.
-    pub component: usize,
-    /// Factor from SI to the label's unit.
-    pub factor: f64,
-    /// True value to draw as a line, in the label's unit.
-    pub truth: Option<f64>,
+    /// What it shows it over, if not over time.
+    pub x_label: Option<String>,
+    /// From the first to be drawn to the last.
+    pub curves: Vec<Curve>,
+    /// What the curves are compared with.
+    pub reference: Option<Reference>,
+    /// Limits on either side of zero, in the label's unit.
+    pub limit: Option<Limit>,
 }
 
+/// One curve of a panel.
+pub(super) struct Curve {
+    /// What it stands for.
+    pub key: Key,
+    /// Index of its run.
+    pub run: usize,
+    /// Over time, or over this.
+    pub x: Option<Quantity>,
+    pub y: Quantity,
+    pub line: Line,
+}
+
+/// What a curve of a figure stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Key {
+    /// A run, by its index.
+    Run(usize),
+    /// A part of a torque, by its index in `TorquePart::ALL`.
+    Part(usize),
+    /// The torque that the parts sum to.
+    Total,
+}
+
+/// A truth beside the curves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Reference {
+    /// The same at all times.
+    Constant(f64),
+    /// A quantity of a run.
+    Curve { run: usize, quantity: Quantity },
+}
+
+/// `± value`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limit {
+    pub value: f64,
+    /// Shown even where all curves stay far from it.
+    pub always: bool,
+}
+
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 /// Parameters per figure of estimates.
 const ESTIMATES_PER_FIGURE: usize = 6;
 
-impl Figure {
-    /// Every figure, in the paper's order.
-    pub const ALL: [Self; 7] = [
-        Self::TrackingErrors,
-        Self::VelocityErrors,
-        Self::ObserverErrors,
-        Self::Estimates1,
-        Self::Estimates2,
-        Self::Estimates3,
-        Self::Torques,
-    ];
+/// Panels of a figure of `runs` on `robot`, with their curves in the order of drawing.
+pub(super) fn panels(figure: Figure, robot: &RobotData, runs: &[PlottedRun<'_>], view: &View<'_>) -> Vec<Panel> {
+    let builder = Builder { figure, robot, runs, view };
+    let joints = 0..robot.joint_count();
+    match figure {
+        Figure::Estimates1 => builder.estimates(0, ESTIMATES_PER_FIGURE),
+        Figure::Estimates2 => builder.estimates(ESTIMATES_PER_FIGURE, ESTIMATES_PER_FIGURE),
+        Figure::Estimates3 => builder.estimates(2 * ESTIMATES_PER_FIGURE, ESTIMATES_PER_FIGURE),
+        Figure::Estimates => builder.estimates(0, robot.parameter_count()),
+        Figure::ParameterErrorNorm => builder.parameter_error(),
+        _ => joints.map(|joint| builder.joint(joint)).collect(),
+    }
+}
 
-    /// Identifier, in file names and addresses.
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::TrackingErrors => "tracking_errors",
-            Self::VelocityErrors => "velocity_errors",
-            Self::ObserverErrors => "observer_errors",
-            Self::Estimates1 => "estimates_1",
-            Self::Estimates2 => "estimates_2",
-            Self::Estimates3 => "estimates_3",
-            Self::Torques => "torques",
-        }
+struct Builder<'a> {
+    figure: Figure,
+    robot: &'a RobotData,
+    runs: &'a [PlottedRun<'a>],
+    view: &'a View<'a>,
+}
+
+impl Builder<'_> {
+    fn column(&self, signal: Signal, component: usize) -> usize {
+        let columns = Columns { joints: self.robot.joint_count(), parameters: self.robot.parameter_count() };
+        columns.start(signal) + component
     }
 
-    /// The figure called `id`.
-    pub fn from_id(id: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|figure| figure.id() == id)
+    fn scaled(&self, signal: Signal, component: usize, factor: f64) -> Quantity {
+        Quantity::Column { column: self.column(signal, component), factor }
     }
 
-    /// Its number in the paper.
-    pub const fn paper_number(self) -> Option<u8> {
-        match self {
-            Self::TrackingErrors => Some(2),
-            Self::VelocityErrors => Some(3),
-            Self::ObserverErrors => Some(4),
-            Self::Estimates1 => Some(5),
-            Self::Estimates2 => Some(6),
-            Self::Estimates3 => Some(7),
-            Self::Torques => None,
-        }
-    }
-
-    /// Title.
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::TrackingErrors => "Joint tracking errors",
-            Self::VelocityErrors => "Joint velocity errors",
-            Self::ObserverErrors => "Observer errors",
-            Self::Estimates1 => "Parameter estimates θ1 to θ6",
-            Self::Estimates2 => "Parameter estimates θ7 to θ12",
-            Self::Estimates3 => "Parameter estimates θ13 to θ18",
-            Self::Torques => "Joint torques",
-        }
-    }
-
-    /// Size in layout pixels at which it looks best on paper.
-    pub const fn natural_size(self) -> (u32, u32) {
-        match self {
-            Self::Estimates1 | Self::Estimates2 | Self::Estimates3 => (900, 680),
-            _ => (900, 620),
-        }
-    }
-
-    /// Panels side by side at this width, layout pixels.
-    pub(super) const fn columns(self, width: f64) -> usize {
-        match self {
-            Self::Estimates1 | Self::Estimates2 | Self::Estimates3 if width >= 420.0 => 2,
-            _ => 1,
-        }
-    }
-
-    /// Whether a scheme's run belongs in the figure.
-    pub fn shows(self, scheme: Scheme) -> bool {
-        self != Self::ObserverErrors || scheme == Scheme::Proposed
-    }
-
-    /// Its panels, for a robot whose true parameters are `theta`.
-    pub(super) fn panels(self, robot: &RobotData, theta: &[f64]) -> Vec<Panel> {
-        let per_joint = |symbol: &str, unit: &str, signal: Signal| {
-            (0..robot.joint_count())
-                .map(|component| Panel {
-                    label: format!("{symbol}{} [{unit}]", component + 1),
-                    signal,
-                    component,
-                    factor: signal.exported().1,
-                    truth: None,
-                })
-                .collect()
+    /// A curve per run that belongs in the figure, those to compare with below the others.
+    fn panel(&self, label: String, x: Option<Quantity>, y: Quantity) -> Panel {
+        let theme = self.view.style.theme;
+        let shown = |faded: bool| {
+            let runs = self.runs.iter().enumerate();
+            runs.filter(move |(_, run)| run.faded == faded && self.figure.shows(run.scheme))
         };
-        let estimates = |page: usize| {
-            let first = page * ESTIMATES_PER_FIGURE;
-            let shown = robot.parameters.iter().enumerate().skip(first).take(ESTIMATES_PER_FIGURE);
-            shown
-                .map(|(component, parameter)| Panel {
-                    label: format!("{} [{}]", parameter.symbol, parameter.unit),
-                    signal: Signal::ThetaHat,
-                    component,
-                    factor: 1.0,
-                    truth: theta.get(component).copied(),
-                })
-                .collect()
+        let curves = shown(true).chain(shown(false)).map(|(index, run)| {
+            let (own, dash) = scheme_style(run.scheme, theme);
+            Curve {
+                key: Key::Run(index),
+                run: index,
+                x,
+                y,
+                line: Line::of_run(run.color.unwrap_or(own), dash, run.faded, theme),
+            }
+        });
+        Panel { label, x_label: None, curves: curves.collect(), reference: None, limit: None }
+    }
+
+    fn joint(&self, joint: usize) -> Panel {
+        let n = joint + 1;
+        let simple = |symbol: &str, unit: &str, signal: Signal, factor: f64| {
+            self.panel(format!("{symbol}{n} [{unit}]"), None, self.scaled(signal, joint, factor))
         };
-        match self {
-            Self::TrackingErrors => per_joint("e", "°", Signal::Error),
-            Self::VelocityErrors => per_joint("ė", "°/s", Signal::ErrorRate),
-            Self::ObserverErrors => per_joint("z", "°", Signal::ObserverError),
-            Self::Torques => per_joint("τ", "N·m", Signal::Torque),
-            Self::Estimates1 => estimates(0),
-            Self::Estimates2 => estimates(1),
-            Self::Estimates3 => estimates(2),
+        match self.figure {
+            Figure::VelocityErrors => simple("ė", "°/s", Signal::ErrorRate, DEGREES),
+            Figure::ObserverErrors => simple("z", "°", Signal::ObserverError, DEGREES),
+            Figure::SlidingVariables => simple("s", "rad/s", Signal::SlidingVariable, 1.0),
+            Figure::Torques => Panel {
+                limit: Some(Limit { value: self.robot.effort_limit_nm[joint], always: false }),
+                ..simple("τ", "N·m", Signal::Torque, 1.0)
+            },
+            Figure::Voltages => Panel {
+                limit: Some(Limit { value: self.robot.supply_v, always: true }),
+                ..simple("v", "V", Signal::Torque, self.robot.voltage_v(1.0))
+            },
+            Figure::Positions => {
+                let (of, minus) = (self.column(Signal::Position, joint), self.column(Signal::Error, joint));
+                let quantity = Quantity::Difference { of, minus, factor: DEGREES };
+                let run = self.runs.iter().position(|run| !run.recording.is_empty());
+                Panel {
+                    reference: run.map(|run| Reference::Curve { run, quantity }),
+                    ..simple("q", "°", Signal::Position, DEGREES)
+                }
+            }
+            Figure::PhasePlane => {
+                let x = self.scaled(Signal::Error, joint, DEGREES);
+                let y = self.scaled(Signal::ErrorRate, joint, DEGREES);
+                Panel { x_label: Some(format!("e{n} [°]")), ..self.panel(format!("ė{n} [°/s]"), Some(x), y) }
+            }
+            Figure::TorqueParts => self.torque_parts(joint),
+            _ => simple("e", "°", Signal::Error, DEGREES),
         }
+    }
+
+    fn torque_parts(&self, joint: usize) -> Panel {
+        let theme = self.view.style.theme;
+        let total = self.scaled(Signal::Torque, joint, 1.0);
+        let run = self.view.focus;
+        let curve = |key, y, line| Curve { key, run, x: None, y, line };
+        let mut curves = Vec::new();
+        if run < self.runs.len() {
+            curves.push(curve(Key::Total, total, total_line(theme)));
+            let parts =
+                (0..PARTS).map(|part| curve(Key::Part(part), Quantity::Part { joint, part }, part_line(part, theme)));
+            curves.extend(parts);
+        }
+        Panel { label: format!("τ{} [N·m]", joint + 1), x_label: None, curves, reference: None, limit: None }
+    }
+
+    fn estimates(&self, first: usize, count: usize) -> Vec<Panel> {
+        // Runs side by side are runs of one arm.
+        let truth = self.runs.first().map_or(&[][..], |run| run.theta_true);
+        let shown = self.robot.parameters.iter().enumerate().skip(first).take(count);
+        let panel = |(component, parameter): (usize, &crate::robots::Parameter)| Panel {
+            reference: truth.get(component).copied().map(Reference::Constant),
+            ..self.panel(
+                format!("{} [{}]", parameter.symbol, parameter.unit),
+                None,
+                self.scaled(Signal::ThetaHat, component, 1.0),
+            )
+        };
+        shown.map(panel).collect()
+    }
+
+    fn parameter_error(&self) -> Vec<Panel> {
+        let first = self.column(Signal::ThetaHat, 0);
+        vec![self.panel("rms (θ̂−θ)/θ".to_owned(), None, Quantity::ParameterError { first })]
     }
 }

@@ -9,9 +9,10 @@ use crate::adaptation::{
     Projection,
 };
 use crate::control::{CoriolisVelocity, SlidingFeedback};
+use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
-use crate::recording::Columns;
+use crate::recording::{Columns, Recording};
 use crate::robots::{CrsA465, Robot, RobotData};
 use crate::scalar::Scalar;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
@@ -133,6 +134,14 @@ pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> 
         theta.iter_mut().zip(scale).for_each(|(theta, scale)| *theta *= scale);
     }
     theta
+}
+
+/// A recording's torques, split by the arm that the document describes.
+pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recording: &Recording) -> TorqueParts {
+    // The one robot so far, as in `Scenario::closed_loop`.
+    let theta = vector(&theta(document, robot));
+    let plant = Plant::<CrsA465, f64, 3, 18>::new(theta, FrictionSign::from_width(document.plant.friction.width_rad_s));
+    TorqueParts::of(&plant, &trajectory(&document.trajectory), recording)
 }
 
 /// Whether an arm with these parameters can exist.

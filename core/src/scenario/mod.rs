@@ -25,6 +25,7 @@ pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
 pub use validate::{LIMITS, Limits};
 
+use crate::decomposition::TorqueParts;
 use crate::metrics::Metrics;
 use crate::recording::Recording;
 use crate::robots::{CrsA465, RobotData};
@@ -212,6 +213,11 @@ impl Scenario {
     /// True parameters of the simulated arm, SI units: the robot's, scaled as the plant says.
     pub fn theta(&self) -> Vec<f64> {
         build::theta(&self.document, self.robot)
+    }
+
+    /// The torques of a recording of this scenario, split into what they are spent on.
+    pub fn torque_parts(&self, recording: &Recording) -> TorqueParts {
+        build::torque_parts(&self.document, self.robot, recording)
     }
 
     /// How long, how fine, what is kept.

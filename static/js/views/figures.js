@@ -102,7 +102,7 @@ export class Figures {
     for (const card of this.#cards.filter(({ inView, stale }) => inView && stale)) {
       const scale = card.prepare();
       if (scale > 0) {
-        const view = { shown: this.shown, dark: this.dark, scale };
+        const view = { shown: this.shown.map((id) => ({ id })), dark: this.dark, scale };
         this.#bindings.draw_figure(this.#runs, card.canvas, card.dataset.figure, JSON.stringify(view));
         card.stale = false;
       }
