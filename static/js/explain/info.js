@@ -72,7 +72,9 @@ function build() {
   const node = element("div", { popover: "auto", class: "info-popover", role: "dialog", tabindex: "-1", id: "info" });
   node.addEventListener("beforetoggle", ({ newState }) => newState === "closed" && settle());
   document.body.append(node);
-  addEventListener("resize", () => opener && place(opener));
+  const follow = ({ target }) => opener && target !== node && place(opener);
+  addEventListener("resize", follow);
+  addEventListener("scroll", follow, { capture: true, passive: true });
   return node;
 }
 
@@ -98,7 +100,8 @@ function place(button) {
   const left = Math.max(GAP, Math.min(at.left, right - width));
   const below = at.bottom + GAP;
   const above = at.top - GAP - height;
-  const top = below + height <= innerHeight ? below : above >= 0 ? above : Math.max(GAP, innerHeight - height - GAP);
+  const lowest = innerHeight - height - GAP;
+  const top = Math.max(GAP, Math.min(below <= lowest || above < 0 ? below : above, lowest));
   popover.style.setProperty("left", `${left}px`);
   popover.style.setProperty("top", `${top}px`);
 }
