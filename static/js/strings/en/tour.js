@@ -57,7 +57,7 @@ export const tour = {
     now: {
       title: "What now?",
       text: [
-        "Move gains: set λ of the proposed scheme to 0 and watch the estimates find the truth; divide K_v by ten; start the arm standing still. The “i” beside each gain says what to expect and lets you try it.",
+        "Move gains: set λ of the proposed scheme to 0 and watch most estimates find the truth; divide K_v by ten; start the arm standing still. The “i” beside each gain says what to expect and lets you try it.",
         "Marked on the page: why the worst joint is worst, answered for whatever you set.",
       ],
     },

@@ -80,7 +80,7 @@ export const tour = {
     now: {
       title: "¿Y ahora?",
       text: [
-        "Mueve ganancias: pon λ del esquema propuesto a 0 y mira cómo los estimados hallan la verdad; divide K_v entre diez; haz que el brazo empiece parado. La «i» junto a cada ganancia dice qué esperar y deja probarlo.",
+        "Mueve ganancias: pon λ del esquema propuesto a 0 y mira cómo la mayoría de los estimados halla la verdad; divide K_v entre diez; haz que el brazo empiece parado. La «i» junto a cada ganancia dice qué esperar y deja probarlo.",
         "Marcado en la página: por qué la peor articulación es la peor, respondido para lo que pongas.",
       ],
     },

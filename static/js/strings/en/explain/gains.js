@@ -73,7 +73,7 @@ export const gains = {
         "How fast the memory of prediction errors fades: the paper's value keeps the last 8 ms. A long memory is what replaces " +
         "persistent excitation, for as long as the true parameters do not change.",
       small:
-        "With no forgetting at all the estimates find the truth within 12 s: 11 of 18 end within 10 % of it, where the paper's " +
+        "With no forgetting at all most estimates find the truth within 12 s: 11 of 18 end within 10 % of it, where the paper's " +
         "value brings none there. I(e) falls by half.",
       large: "The memory is too short to matter: I(e) rises by 2 to 6 %, as it does without memory.",
     },

@@ -83,7 +83,7 @@ export const gains = {
         "Con qué rapidez se borra la memoria de errores de predicción: el valor del artículo guarda los últimos 8 ms. Una memoria " +
         "larga es lo que sustituye a la excitación persistente, mientras los parámetros verdaderos no cambien.",
       small:
-        "Sin ningún olvido los estimados hallan la verdad en 12 s: 11 de 18 acaban a menos de un 10 % de ella, donde el valor del " +
+        "Sin ningún olvido la mayoría de los estimados halla la verdad en 12 s: 11 de 18 acaban a menos de un 10 % de ella, donde el valor del " +
         "artículo no lleva a ninguno. I(e) baja a la mitad.",
       large: "La memoria es demasiado corta para contar: I(e) sube de un 2 a un 6 %, como sin memoria.",
     },
