@@ -6,14 +6,18 @@
 
 #[cfg(target_arch = "wasm32")]
 mod canvas;
+mod claims;
 mod describe;
 mod failure;
+mod feedback;
 mod plotter;
 mod run;
 mod runs;
 mod view;
 
+pub use claims::claims;
 pub use describe::describe;
+pub use feedback::sliding_rms;
 pub use plotter::{export_svg, figure_height, read_figure, torque_summary};
 pub use run::{Run, check, resolve};
 pub use runs::Runs;

@@ -4,6 +4,8 @@ mod appearance;
 mod exports;
 mod figures;
 mod compare;
+mod explain;
+mod gains_said;
 mod identity;
 mod input;
 mod jobs;
@@ -15,6 +17,7 @@ mod pinned;
 mod resilience;
 mod server_run;
 mod sliders;
+mod tour;
 
 use crate::bench::Bench;
 use anyhow::Result;
@@ -79,4 +82,20 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_broken_link_changes_nothing_and_says_why", links::a_broken_link_changes_nothing),
     ("a_broken_file_changes_nothing_and_says_why", links::a_broken_file_changes_nothing),
     ("exported_files_open_to_the_same_bits", links::exported_files_open_to_the_same_bits),
+    ("everything_has_an_info_button_with_an_equation", explain::everything_has_an_info_button_with_an_equation),
+    ("a_gain_is_tried_and_put_back", explain::a_gain_is_tried_and_put_back),
+    ("the_glossary_lists_every_symbol", explain::the_glossary_lists_every_symbol),
+    ("why_a_joint_is_worst_follows_the_run", explain::why_a_joint_is_worst_follows_the_run),
+    ("explanations_are_in_both_languages", explain::explanations_are_in_both_languages),
+    ("what_is_said_of_gains_is_so", gains_said::what_is_said_of_gains_is_so),
+    (
+        "the_tour_goes_by_keyboard_and_judges_as_the_replication",
+        tour::the_tour_goes_by_keyboard_and_judges_as_the_replication,
+    ),
+    ("escape_ends_the_tour_and_the_settings_come_back", tour::escape_ends_the_tour_and_the_settings_come_back),
+    ("the_tour_judges_longer_runs", tour::the_tour_judges_longer_runs),
+    (
+        "on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of",
+        tour::on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of,
+    ),
 ];
