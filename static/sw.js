@@ -62,12 +62,16 @@ function download(list) {
 
 async function downloadAll({ version, files }) {
   const cache = await caches.open(PREFIX + version);
+  const before = await current();
   const waiting = Object.entries(files);
   const fetchSome = async () => {
     for (let next = waiting.pop(); next; next = waiting.pop()) {
       const [path, hash] = next;
       const address = addressOf(path);
-      if (!(await cache.match(address))) {
+      const unchanged = before?.list.files[path] === hash ? await before.cache.match(address) : null;
+      if (unchanged) {
+        await cache.put(address, unchanged);
+      } else if (!(await cache.match(address))) {
         const response = await fetch(address, { cache: "no-cache" });
         const found = await hashOf(await response.clone().arrayBuffer());
         if (!response.ok || found !== hash) {

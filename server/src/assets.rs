@@ -8,7 +8,7 @@ use axum::Router;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use memory_serve::{Asset, CacheControl, MemoryServe};
+use memory_serve::{CacheControl, MemoryServe};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -39,8 +39,9 @@ pub fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
         .route(LIST, get(list))
 }
 
-fn assets() -> &'static [Asset] {
-    let folders: &[(&str, &'static [Asset])] = include!(concat!(env!("OUT_DIR"), "/memory_serve_assets.rs"));
+fn assets() -> &'static [memory_serve::Asset] {
+    let folders: &[(&str, &'static [memory_serve::Asset])] =
+        include!(concat!(env!("OUT_DIR"), "/memory_serve_assets.rs"));
     folders.first().map_or(&[], |(_, assets)| assets)
 }
 
@@ -60,13 +61,13 @@ async fn list(headers: HeaderMap) -> Response {
 
 impl Files {
     fn of_page() -> Self {
-        let hash = |asset: &'static Asset| match asset.bytes {
+        let hash = |asset: &'static memory_serve::Asset| match asset.bytes {
             // The tag of an embedded file is the hash of its content before compression.
             Some(_) => Some(asset.etag.to_owned()),
             // Gone since the build: not served, so not listed.
             None => std::fs::read(asset.path).ok().map(|bytes| hex::encode(Sha256::digest(bytes))),
         };
-        let file = |asset: &'static Asset| Some((asset.route.trim_start_matches('/'), hash(asset)?));
+        let file = |asset: &'static memory_serve::Asset| Some((asset.route.trim_start_matches('/'), hash(asset)?));
         let files: BTreeMap<_, _> = assets().iter().filter_map(file).collect();
         let mut version = Sha256::new();
         for (path, hash) in &files {

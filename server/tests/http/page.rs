@@ -56,6 +56,10 @@ async fn the_manifest_names_files_that_are_there() {
     for icon in icons {
         let path = icon["src"].as_str().unwrap();
         let file = app.get(&format!("/{path}")).await;
-        assert_eq!((file.status.as_u16(), file.header("content-type")), (200, icon["type"].as_str().unwrap()), "{path}");
+        assert_eq!(
+            (file.status.as_u16(), file.header("content-type")),
+            (200, icon["type"].as_str().unwrap()),
+            "{path}"
+        );
     }
 }

@@ -1,14 +1,23 @@
 //! The cases, by name.
 
+mod accessibility;
 mod appearance;
+pub mod benchmark;
 mod identity;
 mod input;
 mod keyboard;
+mod language;
 mod latency;
 mod long_runs;
+mod look;
+mod memory;
+mod offline;
 mod pinned;
 mod resilience;
 mod sliders;
+mod transfer;
+
+pub use accessibility::axe;
 
 use crate::bench::Bench;
 use anyhow::Result;
@@ -41,4 +50,24 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
+    ("a_silent_worker_is_replaced", resilience::a_silent_worker_is_replaced),
+    ("axe_finds_nothing_on_the_playground", accessibility::axe_finds_nothing_on_the_playground),
+    ("axe_finds_nothing_on_the_other_pages", accessibility::axe_finds_nothing_on_the_other_pages),
+    ("axe_looks_at_the_api_s_page", accessibility::axe_looks_at_the_api_s_page),
+    ("axe_would_find_a_mistake", accessibility::axe_would_find_a_mistake),
+    ("nothing_moves_for_who_asked_for_less_motion", accessibility::nothing_moves_for_who_asked_for_less_motion),
+    ("both_languages_have_the_same_texts", language::both_languages_have_the_same_texts),
+    ("switching_languages_keeps_everything_but_the_words", language::switching_keeps_everything_but_the_words),
+    ("the_browser_s_language_is_the_first_choice", language::the_browser_s_language_is_the_first_choice),
+    ("offline_the_page_works_after_the_server_is_gone", offline::it_works_after_the_server_is_gone),
+    ("a_new_version_replaces_the_old_one_whole", offline::a_new_version_replaces_the_old_one_whole),
+    ("another_tab_follows_to_the_new_version", offline::another_tab_follows_to_the_new_version),
+    ("the_page_can_be_installed", offline::it_can_be_installed),
+    ("a_first_visit_is_small", transfer::a_first_visit_is_small),
+    (
+        "after_two_hundred_random_moves_nothing_is_left_over",
+        memory::after_two_hundred_random_moves_nothing_is_left_over,
+    ),
+    ("the_main_page_looks_as_approved", look::the_main_page_looks_as_approved),
+    ("a_change_of_looks_would_be_seen", look::a_change_of_looks_would_be_seen),
 ];
