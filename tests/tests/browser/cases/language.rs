@@ -64,7 +64,7 @@ pub fn switching_keeps_everything_but_the_words(bench: &Bench) -> Result<()> {
         &[],
     )?;
     page.ready()?;
-    ensure!(page.run(LANGUAGE, &[])? == json!(["es", "Configuración"]), "the page is not in Spanish");
+    ensure!(page.run(LANGUAGE, &[])? == json!(["es", "Ajustes"]), "the page is not in Spanish");
     let title = page.run("return [document.title, document.querySelector('meta[name=description]').content]", &[])?;
     let (title, description) = (title[0].as_str().context("no title")?, title[1].as_str().context("none")?);
     ensure!(title.contains("brazo") && description.contains("brazo"), "title and description: {title}, {description}");
@@ -81,7 +81,7 @@ pub fn switching_keeps_everything_but_the_words(bench: &Bench) -> Result<()> {
 
     // The choice lasts, and an address counts more than it.
     page.reload()?;
-    ensure!(page.run(LANGUAGE, &[])? == json!(["es", "Configuración"]), "a reload forgets the language");
+    ensure!(page.run(LANGUAGE, &[])? == json!(["es", "Ajustes"]), "a reload forgets the language");
     page.go(&format!("{}/?lang=en", bench.server.url))?;
     page.ready()?;
     ensure!(page.run(LANGUAGE, &[])? == json!(["en", "Setup"]), "the address does not count");
@@ -95,7 +95,7 @@ pub fn the_browser_s_language_is_the_first_choice(bench: &Bench) -> Result<()> {
     page.devtools("Emulation.setUserAgentOverride", &override_language)?;
     page.visit()?;
     page.ready()?;
-    ensure!(page.run(LANGUAGE, &[])? == json!(["es", "Configuración"]), "the browser's second choice is not spoken");
+    ensure!(page.run(LANGUAGE, &[])? == json!(["es", "Ajustes"]), "the browser's second choice is not spoken");
     let wide = page.run("return document.documentElement.scrollWidth > innerWidth", &[])?;
     ensure!(wide == false, "in Spanish the page scrolls sideways on a phone");
     Ok(())
