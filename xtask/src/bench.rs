@@ -22,9 +22,14 @@ pub(crate) fn run(workspace: &Workspace, args: &BenchArgs) -> Result<()> {
         return Ok(());
     }
     let mut command = workspace.cargo();
-    command
-        .env("ADAPTARM_BIN", workspace.server_program("release"))
-        .env("ADAPTARM_BENCH", "1")
-        .args(["test", "--quiet", "--locked", "--package", "adaptarm-tests", "--test", "browser"]);
+    command.env("ADAPTARM_BIN", workspace.server_program("release")).env("ADAPTARM_BENCH", "1").args([
+        "test",
+        "--quiet",
+        "--locked",
+        "--package",
+        "adaptarm-tests",
+        "--test",
+        "browser",
+    ]);
     tools::run(&mut command)
 }

@@ -58,22 +58,25 @@ pub fn axe_finds_nothing_on_the_other_pages(bench: &Bench) -> Result<()> {
 /// The page's documents beside the playground.
 fn pages() -> Vec<String> {
     let folder = crate::bench::repository().join("static");
-    let documents = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = documents.filter_map(|entry| entry.file_name().into_string().ok());
-    names.filter(|name| name.ends_with(".html") && name != "index.html").collect()
+    let documents = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let documents = documents.filter(|path| path.extension().is_some_and(|ending| ending == "html"));
+    let names = documents.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()));
+    names.filter(|name| name != "index.html").collect()
 }
 
-/// The API's own page is Swagger UI's work, whose violations are not ours to mend: they are printed.
-pub fn axe_looks_at_the_api_s_page(bench: &Bench) -> Result<()> {
+/// What is wrong with Swagger UI itself, by axe's names: the page around it is ours, this is not.
+const SWAGGER_UI: [&str; 4] = ["color-contrast", "heading-order", "nested-interactive", "select-name"];
+
+pub fn axe_finds_only_swagger_ui_s_own_on_the_api_s_page(bench: &Bench) -> Result<()> {
     let page = Page::blank(bench, Screen::Desktop)?;
     page.go(&format!("{}/api/docs", bench.server.url))?;
     page.wait_for("return document.querySelectorAll('.opblock').length > 10")?;
     let found = run(&page)?;
-    for violation in found["violations"].as_array().into_iter().flatten() {
-        println!("api/docs: {violation}");
-    }
-    let language = page.run("return [document.documentElement.lang, document.title]", &[])?;
-    ensure!(language == json!(["en", "adaptarm API"]), "without language or title: {language}");
+    ensure!(found["passes"].as_u64().is_some_and(|passes| passes > 10), "axe did not run: {found}");
+    let list: Vec<_> = found["violations"].as_array().context("no answer")?.iter().filter_map(Value::as_str).collect();
+    let ours = list.iter().filter(|one| !SWAGGER_UI.contains(&one.split(' ').next().unwrap_or_default()));
+    let ours: Vec<_> = ours.collect();
+    ensure!(ours.is_empty(), "{ours:#?}");
     Ok(())
 }
 
@@ -148,7 +151,7 @@ pub fn nothing_moves_for_who_asked_for_less_motion(bench: &Bench) -> Result<()> 
     page.visit()?;
     page.ready()?;
     ensure!(page.run("return matchMedia('(prefers-reduced-motion: reduce)').matches", &[])? == true, "not emulated");
-    // Whatever is there to press, in the order of the page; what leads elsewhere or opens the system's windows is left out.
+    // What scrolls, unfolds, changes colour or redraws.
     page.run(
         "for (const details of document.querySelectorAll('details')) details.open = true; \
          for (const tab of document.querySelectorAll('[role=tab]')) tab.click(); \
@@ -170,6 +173,5 @@ pub fn nothing_moves_for_who_asked_for_less_motion(bench: &Bench) -> Result<()> 
     )?;
     let still = json!({ "smooth": [], "moved": [], "scroll": "auto", "running": 0, "declared": [] });
     ensure!(state == still, "something moves: {state}");
-    // The arm must not start to play by itself either: the shared instant stands still unless asked.
     Ok(())
 }

@@ -53,7 +53,10 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_silent_worker_is_replaced", resilience::a_silent_worker_is_replaced),
     ("axe_finds_nothing_on_the_playground", accessibility::axe_finds_nothing_on_the_playground),
     ("axe_finds_nothing_on_the_other_pages", accessibility::axe_finds_nothing_on_the_other_pages),
-    ("axe_looks_at_the_api_s_page", accessibility::axe_looks_at_the_api_s_page),
+    (
+        "axe_finds_only_swagger_ui_s_own_on_the_api_s_page",
+        accessibility::axe_finds_only_swagger_ui_s_own_on_the_api_s_page,
+    ),
     ("axe_would_find_a_mistake", accessibility::axe_would_find_a_mistake),
     ("nothing_moves_for_who_asked_for_less_motion", accessibility::nothing_moves_for_who_asked_for_less_motion),
     ("both_languages_have_the_same_texts", language::both_languages_have_the_same_texts),
