@@ -4,6 +4,7 @@
 import "./elements/scheme-card.js";
 import { Address } from "./address.js";
 import { announce } from "./announce.js";
+import { translated } from "./core-text.js";
 import { byId, element } from "./dom.js";
 import { formatSeconds } from "./format.js";
 import { History } from "./history.js";
@@ -12,6 +13,7 @@ import { Laboratory } from "./laboratory.js";
 import { buildMasthead } from "./masthead.js";
 import { notice } from "./notice.js";
 import { RunPool } from "./pool.js";
+import { learnNames } from "./refusal.js";
 import { State } from "./state.js";
 import { strings } from "./strings/index.js";
 import { isDark, onTheme } from "./theme.js";
@@ -43,7 +45,8 @@ async function main() {
     return;
   }
   const { bindings, module } = loaded;
-  const description = JSON.parse(bindings.describe());
+  const description = translated(JSON.parse(bindings.describe()));
+  learnNames(description);
   const check = (scenario) => bindings.check(JSON.stringify(scenario));
   for (const study of description.studies) {
     study.hashes = Object.fromEntries(Object.entries(study.documents).map(([id, scenario]) => [id, check(scenario)]));

@@ -2,7 +2,7 @@
 
 use crate::bench::Bench;
 use anyhow::{Context, Result, bail};
-use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand};
+use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand, WindowHandle};
 use fantoccini::{Client, ClientBuilder};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
@@ -66,7 +66,35 @@ impl<'a> Page<'a> {
 
     /// Goes to the page.
     pub fn visit(&self) -> Result<()> {
-        Ok(self.bench.runtime.block_on(self.client.goto(&self.bench.server.url))?)
+        self.go(&self.bench.server.url)
+    }
+
+    /// Goes to an address.
+    pub fn go(&self, url: &str) -> Result<()> {
+        Ok(self.bench.runtime.block_on(self.client.goto(url))?)
+    }
+
+    /// The tab that everything here means.
+    pub fn tab(&self) -> Result<WindowHandle> {
+        Ok(self.bench.runtime.block_on(self.client.window())?)
+    }
+
+    /// Opens another tab at an address; from now on everything here means that one.
+    pub fn open_tab(&self, url: &str) -> Result<()> {
+        let tab = self.bench.runtime.block_on(self.client.new_window(true))?.handle;
+        self.switch_to(&tab)?;
+        self.go(url)
+    }
+
+    /// From now on everything here means this tab.
+    pub fn switch_to(&self, tab: &WindowHandle) -> Result<()> {
+        Ok(self.bench.runtime.block_on(self.client.switch_to_window(tab.clone()))?)
+    }
+
+    /// Runs a script's body in every page that is opened from now on, before any of its own scripts.
+    pub fn before_each_page(&self, script: &str) -> Result<()> {
+        self.devtools("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": script }))?;
+        Ok(())
     }
 
     /// Goes to a path of the page's server, such as `#1.…`, and waits until its results are drawn.

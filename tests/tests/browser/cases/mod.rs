@@ -1,23 +1,32 @@
 //! The cases, by name.
 
+mod accessibility;
 mod appearance;
 mod exports;
 mod figures;
 mod compare;
 mod explain;
 mod gains_said;
+pub mod benchmark;
 mod identity;
 mod input;
 mod jobs;
 mod keyboard;
+mod language;
 mod latency;
 mod links;
 mod long_runs;
+mod look;
+mod memory;
+mod offline;
 mod pinned;
 mod resilience;
 mod server_run;
 mod sliders;
 mod tour;
+mod transfer;
+
+pub use accessibility::axe;
 
 use crate::bench::Bench;
 use anyhow::Result;
@@ -98,4 +107,27 @@ pub const ALL: &[(&str, Case)] = &[
         "on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of",
         tour::on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of,
     ),
+    ("a_silent_worker_is_replaced", resilience::a_silent_worker_is_replaced),
+    ("axe_finds_nothing_on_the_playground", accessibility::axe_finds_nothing_on_the_playground),
+    ("axe_finds_nothing_on_the_other_pages", accessibility::axe_finds_nothing_on_the_other_pages),
+    (
+        "axe_finds_only_swagger_ui_s_own_on_the_api_s_page",
+        accessibility::axe_finds_only_swagger_ui_s_own_on_the_api_s_page,
+    ),
+    ("axe_would_find_a_mistake", accessibility::axe_would_find_a_mistake),
+    ("nothing_moves_for_who_asked_for_less_motion", accessibility::nothing_moves_for_who_asked_for_less_motion),
+    ("both_languages_have_the_same_texts", language::both_languages_have_the_same_texts),
+    ("switching_languages_keeps_everything_but_the_words", language::switching_keeps_everything_but_the_words),
+    ("the_browser_s_language_is_the_first_choice", language::the_browser_s_language_is_the_first_choice),
+    ("offline_the_page_works_after_the_server_is_gone", offline::it_works_after_the_server_is_gone),
+    ("a_new_version_replaces_the_old_one_whole", offline::a_new_version_replaces_the_old_one_whole),
+    ("another_tab_follows_to_the_new_version", offline::another_tab_follows_to_the_new_version),
+    ("the_page_can_be_installed", offline::it_can_be_installed),
+    ("a_first_visit_is_small", transfer::a_first_visit_is_small),
+    (
+        "after_two_hundred_random_moves_nothing_is_left_over",
+        memory::after_two_hundred_random_moves_nothing_is_left_over,
+    ),
+    ("the_main_page_looks_as_approved", look::the_main_page_looks_as_approved),
+    ("a_change_of_looks_would_be_seen", look::a_change_of_looks_would_be_seen),
 ];

@@ -1,0 +1,3 @@
+// Textos: por traducir; hasta entonces, en inglés.
+
+export const stage = {};
