@@ -3,6 +3,7 @@
 //! `describe` says what exists, `check` validates, `Run` advances a simulation in a worker; `Runs` holds what is shown and
 //! `draw_figure` draws it, on the main thread. No physics and no page here: the page's behaviour is in `static/js`.
 
+mod arm;
 #[cfg(target_arch = "wasm32")]
 mod canvas;
 mod describe;
@@ -11,6 +12,7 @@ mod plotter;
 mod run;
 mod runs;
 
+pub use arm::{arm_paths, arm_pose};
 pub use describe::describe;
 pub use run::{Run, check};
 pub use runs::Runs;

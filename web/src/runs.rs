@@ -15,6 +15,8 @@ pub(crate) struct ShownRun {
     pub recording: Recording,
     /// Whether it reached its duration.
     pub completed: bool,
+    /// Differs from that of every other run that was ever added: what is made from a run is current while this is.
+    pub revision: u64,
 }
 
 /// Runs by the page's names for them.
@@ -22,6 +24,7 @@ pub(crate) struct ShownRun {
 #[derive(Default)]
 pub struct Runs {
     runs: BTreeMap<String, ShownRun>,
+    added: u64,
 }
 
 #[wasm_bindgen]
@@ -51,7 +54,8 @@ impl Runs {
         let columns = Columns { joints: robot.joint_count(), parameters: robot.parameter_count() };
         let recording = Recording::from_rows(columns, rows)
             .ok_or_else(|| Failure::new("the samples end in the middle of a row".to_owned()))?;
-        self.runs.insert(id.to_owned(), ShownRun { scenario, recording, completed });
+        self.added += 1;
+        self.runs.insert(id.to_owned(), ShownRun { scenario, recording, completed, revision: self.added });
         Ok(())
     }
 
