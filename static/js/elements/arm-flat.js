@@ -3,10 +3,12 @@
 import { strings } from "../strings/index.js";
 
 /** What must be in view, m: ahead and up from the side, ahead and across from above. */
-const SIDE = { low: [-0.3, -0.03], high: [0.8, 1.05] };
-const TOP = { low: [-0.3, -0.5], high: [0.8, 0.5] };
+const SIDE = { low: [-0.2, 0], high: [0.6, 0.9] };
+const TOP = { low: [-0.2, -0.3], high: [0.6, 0.3] };
 const PATH_POINTS = 400;
 const GRID = 0.1;
+/** Room for the labels, layout pixels. */
+const HEAD = 48;
 const FONT = "12px system-ui, sans-serif";
 
 /** Draws what `ArmView.draw` draws, as far as lines can. */
@@ -21,10 +23,11 @@ export function drawFlat(bindings, runs, canvas, view) {
     const pose = bindings.arm_pose(runs, id, view.time_s, view.exaggeration);
     const paths = bindings.arm_paths(runs, id, PATH_POINTS, view.exaggeration);
     const left = column * width;
+    const room = height - HEAD;
     const wide = width > height;
     const boxes = wide
-      ? [{ x: left, y: 0, width: width / 2, height }, { x: left + width / 2, y: 0, width: width / 2, height }]
-      : [{ x: left, y: 0, width, height: 0.6 * height }, { x: left, y: 0.6 * height, width, height: 0.4 * height }];
+      ? [{ x: left, y: HEAD, width: width / 2, height: room }, { x: left + width / 2, y: HEAD, width: width / 2, height: room }]
+      : [{ x: left, y: HEAD, width, height: 0.6 * room }, { x: left, y: HEAD + 0.6 * room, width, height: 0.4 * room }];
     const colors = { arm: color(`--scheme-${id}`), ink: color("--ink"), muted: color("--muted"), line: color("--line") };
     drawProjection(context, boxes[0], SIDE, strings.stage.side, ([x, , z]) => [x, z], pose, paths, colors, view);
     drawProjection(context, boxes[1], TOP, strings.stage.top, ([x, y]) => [x, y], pose, paths, colors, view);
@@ -32,7 +35,7 @@ export function drawFlat(bindings, runs, canvas, view) {
 }
 
 function drawProjection(context, box, { low, high }, title, project, pose, paths, colors, { time_s }) {
-  const margin = 8;
+  const margin = 6;
   const scale = Math.min((box.width - 2 * margin) / (high[0] - low[0]), (box.height - 2 * margin) / (high[1] - low[1]));
   const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
   const place = (point) => {

@@ -1,7 +1,9 @@
 // <arm-view>: the canvas that shows arms, and what happens when its graphics fail.
 //
 // Draws with the module's WebGL2 view, or flat where there is none. Draws at most once a frame and only what has changed and
-// is in view. Knows nothing of time or schemes: the owner says what to show.
+// is in view, and asks for no drawing while another is still being made. Where a processor has to do the graphics card's
+// work, it draws coarsely while things move and finely once they rest, and lets new results wait until they stop coming: the
+// simulations need the processor more. Knows nothing of time or schemes: the owner says what to show.
 
 import { element } from "../dom.js";
 import { strings } from "../strings/index.js";
@@ -13,33 +15,37 @@ import { Orbit } from "./orbit.js";
 const FINEST = 2;
 /** A context that has not come back by then does not come back. */
 const PATIENCE_MS = 5000;
+/** What has not changed for so long rests. */
+const REST_MS = 350;
 
 export class ArmView extends HTMLElement {
   #bindings;
   #runs;
   #wanted;
-  #drawn;
   #size = { width: 0, height: 0 };
   #inView = false;
   #frame = null;
+  #resting = null;
+  #fine = false;
   #gl = null;
   #flat = false;
   #lost = null;
+  #box = element("div", { class: "arm-canvas" });
   #message = element("p", { class: "arm-message", role: "status" });
   orbit = new Orbit();
   /** Of the latest drawing, ms, and how many there were. */
   drawMs = 0;
   drawings = 0;
 
-  /** Draws `runs`. `wanted` returns what to show, `{arms, time_s, dark, exaggeration}`; `drawn` is called after a drawing. */
-  configure({ bindings, runs }, wanted, drawn) {
+  /** Draws `runs`; `wanted` returns what to show, `{arms, time_s, dark, exaggeration}`. Emits "drawn" with what was, and "flat". */
+  configure({ bindings, runs }, wanted) {
     this.#bindings = bindings;
     this.#runs = runs;
     this.#wanted = wanted;
-    this.#drawn = drawn;
+    this.replaceChildren(this.#box, this.#message);
     this.#begin();
     this.orbit.addEventListener("change", () => this.redraw());
-    new ResizeObserver(([entry]) => this.#resize(entry.contentRect)).observe(this);
+    new ResizeObserver(([entry]) => this.#resize(entry.contentRect)).observe(this.#box);
     new IntersectionObserver(([entry]) => this.#move(entry.isIntersecting)).observe(this);
   }
 
@@ -57,6 +63,29 @@ export class ArmView extends HTMLElement {
 
   /** Something has changed: draws in the next frame in which it can be seen. */
   redraw() {
+    this.#fine = false;
+    this.#schedule();
+  }
+
+  /** The runs have changed, and may change again soon. */
+  redrawRuns() {
+    if (this.#gl?.is_slow) {
+      this.#refine();
+    } else {
+      this.redraw();
+    }
+  }
+
+  /** Draws finely once things rest. */
+  #refine() {
+    clearTimeout(this.#resting);
+    this.#resting = setTimeout(() => {
+      this.#fine = true;
+      this.#schedule();
+    }, REST_MS);
+  }
+
+  #schedule() {
     if (this.#inView && this.#frame === null) {
       this.#frame = requestAnimationFrame(() => this.#draw());
     }
@@ -86,7 +115,7 @@ export class ArmView extends HTMLElement {
       "aria-roledescription": interactive ? kind : null,
       "aria-describedby": interactive ? "stage-hint" : null,
     });
-    this.replaceChildren(this.canvas, this.#message);
+    this.#box.replaceChildren(this.canvas);
   }
 
   #fallBack(reason) {
@@ -124,7 +153,12 @@ export class ArmView extends HTMLElement {
 
   #draw() {
     this.#frame = null;
-    const scale = Math.min(devicePixelRatio || 1, FINEST);
+    if (this.#gl?.is_busy) {
+      this.#schedule();
+      return;
+    }
+    const slow = this.#gl?.is_slow === true;
+    const scale = slow ? (this.#fine ? FINEST : 1) : Math.min(devicePixelRatio || 1, FINEST);
     const width = Math.round(this.#size.width * scale);
     const height = Math.round(this.#size.height * scale);
     if (width < 1 || height < 1 || (!this.#gl && !this.#flat)) {
@@ -143,7 +177,10 @@ export class ArmView extends HTMLElement {
     }
     this.drawMs = performance.now() - start;
     this.drawings += 1;
-    this.#drawn(view);
+    if (slow && !this.#fine) {
+      this.#refine();
+    }
+    this.dispatchEvent(new CustomEvent("drawn", { detail: view }));
   }
 
   #resize({ width, height }) {
@@ -153,7 +190,7 @@ export class ArmView extends HTMLElement {
 
   #move(inView) {
     this.#inView = inView;
-    this.redraw();
+    this.#schedule();
   }
 }
 

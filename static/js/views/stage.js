@@ -5,7 +5,7 @@
 import "../elements/arm-view.js";
 import "../elements/transport-bar.js";
 import { byId, element, swatch } from "../dom.js";
-import { formatNumber } from "../format.js";
+import { formatNumber, formatSeconds } from "../format.js";
 import { load, save } from "../storage.js";
 import { strings } from "../strings/index.js";
 import { isDark, onTheme } from "../theme.js";
@@ -56,7 +56,7 @@ export function buildStage(place, app) {
   place.setAttribute("aria-label", texts.title);
   place.append(
     element("div", { class: "stage-head" }, element("h3", {}, texts.title), controls.node),
-    element("div", { class: "stage-box" }, view, labels, empty),
+    element("div", { class: "stage-box" }, view, labels, empty, controls.camera),
     element("p", { class: "stage-legend" }, texts.legend),
     transport,
     element("p", { class: "visually-hidden", id: "stage-hint" }, texts.hint),
@@ -79,11 +79,14 @@ export function buildStage(place, app) {
   }
 
   let resting = null;
-  function drawn({ time_s, exaggeration }) {
+  view.addEventListener("drawn", ({ detail: { time_s, exaggeration } }) => {
     for (const { scheme, off } of readOuts) {
       const pose = bindings.arm_pose(runs, scheme.id, time_s, exaggeration);
       const beyond = pose?.[BEYOND] === 1 ? ` · ${texts.beyondLimits}` : "";
-      const text = pose ? texts.tipOff(millimetres(pose)) + beyond : texts.waiting;
+      const report = laboratory.results[scheme.id]?.report;
+      const ended = report?.outcome === "diverged" && time_s >= report.at_s;
+      const said = ended ? strings.divergedShort(formatSeconds(report.at_s)) : pose && texts.tipOff(millimetres(pose));
+      const text = (said ?? texts.waiting) + beyond;
       if (off.textContent !== text) {
         off.textContent = text;
       }
@@ -92,7 +95,7 @@ export function buildStage(place, app) {
     if (!timeline.isPlaying) {
       resting = setTimeout(() => (view.description = describe(time_s)), REST_MS);
     }
-  }
+  });
 
   function describe(time_s) {
     const sentences = readOuts.map(({ scheme }) => {
@@ -115,10 +118,10 @@ export function buildStage(place, app) {
     }
   });
   transport.configure(timeline);
-  view.configure({ bindings, runs }, wanted, drawn);
+  view.configure(app, wanted);
   timeline.addEventListener("time", () => view.redraw());
   timeline.addEventListener("playing", () => view.redraw());
-  laboratory.addEventListener("result", () => figures.redraw(() => view.redraw()));
+  laboratory.addEventListener("result", () => figures.redraw(() => view.redrawRuns()));
   laboratory.addEventListener("shown", arrange);
   onTheme(() => view.redraw());
   arrange();
@@ -142,7 +145,7 @@ function buildControls(settings, schemes, orbit, changed) {
   );
   times.value = settings.exaggeration;
   const button = (text, glyph, act) =>
-    element("button", { type: "button", class: "round", "aria-label": text, title: text, onclick: act }, glyph);
+    element("button", { type: "button", "aria-label": text, title: text, onclick: act }, glyph);
   const camera = element("div", { class: "stage-camera" },
     button(texts.zoomOut, "−", () => orbit.farther()),
     button(texts.zoomIn, "+", () => orbit.nearer()),
@@ -153,11 +156,11 @@ function buildControls(settings, schemes, orbit, changed) {
     changed();
   }
   return {
+    camera,
     node: element("div", { class: "stage-controls" },
-      scheme,
       element("div", { class: "stage-modes", role: "group", "aria-label": texts.mode }, modes),
-      element("div", { class: "stage-errors" }, element("label", { for: times.id || "stage-errors" }, texts.errors), times),
-      camera,
+      scheme,
+      element("div", { class: "stage-errors" }, element("label", { for: times.id }, texts.errors), times),
     ),
     /** Shows which arms there are; schemes that are hidden cannot be chosen. */
     show(arms, visible) {

@@ -19,15 +19,16 @@ const fn kind(part: u8, material: u8) -> Kind {
     Kind { part, material }
 }
 
-/// All solids for an arm with these link lengths, m.
-pub(crate) fn solids(lengths_m: [f64; 4]) -> Mesh {
+/// All solids for an arm with these link lengths, m; and how many indices the base has, which come first.
+pub(crate) fn solids(lengths_m: [f64; 4]) -> (Mesh, usize) {
     let [height, upper, fore, flange] = lengths_m.map(|length| length as f32);
     let mut mesh = Mesh::default();
     base(&mut mesh);
+    let still = mesh.indices.len();
     waist(&mut mesh, height);
     upper_arm(&mut mesh, upper);
     forearm(&mut mesh, fore, flange);
-    mesh
+    (mesh, still)
 }
 
 fn base(mesh: &mut Mesh) {
@@ -48,7 +49,7 @@ fn base(mesh: &mut Mesh) {
     for step in 0..4 {
         let (sin, cos) = (std::f32::consts::FRAC_PI_4 * (2 * step + 1) as f32).sin_cos();
         let bolt = Place::along_z([0.114 * cos, 0.114 * sin, 0.0]);
-        mesh.cylinder(bolt, kind(0, PAINT), 0.009, [0.02, 0.031], 0.002);
+        mesh.lathe(bolt, kind(0, PAINT), &[[0.02, 0.009], [0.031, 0.009], [0.031, 0.0]]);
     }
 }
 
@@ -77,9 +78,9 @@ fn upper_arm(mesh: &mut Mesh, length: f32) {
         let plate = Link { from: [0.0, 0.0], upright: false, length, radii: [0.068, 0.054], thickness, bevel: 0.006 };
         mesh.link(kind(2, PAINT), &plate);
         for (x, radius) in [(0.0, 0.046), (length, 0.036)] {
-            let cap = [side * 0.070, side * 0.083];
-            let cap = [cap[0].min(cap[1]), cap[0].max(cap[1])];
-            mesh.cylinder(Place::along_y([x, 0.0, 0.0]), kind(2, METAL), radius, cap, 0.004);
+            let cap = [[0.070, radius], [0.079, radius], [0.083, radius - 0.004], [0.083, 0.0]];
+            let cap = cap.map(|[height, radius]| [side * height, radius]);
+            mesh.lathe(Place::along_y([x, 0.0, 0.0]), kind(2, METAL), &cap);
         }
     }
     let middle = Link {
@@ -153,7 +154,8 @@ mod tests {
     #[test]
     fn links_reach_from_joint_to_joint_and_the_tip_is_marked() {
         let arm = Kinematics::new(ROBOTS[0]).unwrap();
-        let mesh = solids(arm.lengths_m());
+        let (mesh, still) = solids(arm.lengths_m());
+        assert!(mesh.indices[still..].iter().all(|&index| mesh.vertices[usize::from(index) * VERTEX + 6] > 0.0));
         let points = arm.points([0.4, 1.2, -0.9]);
         let frames = frames(&points, 0.4);
         let [_, upper, fore, flange] = arm.lengths_m().map(|length| length as f32);
@@ -173,8 +175,10 @@ mod tests {
 
     #[test]
     fn the_mesh_fits_sixteen_bit_indices_and_stands_on_the_floor() {
-        let mesh = solids(Kinematics::new(ROBOTS[0]).unwrap().lengths_m());
+        let (mesh, _) = solids(Kinematics::new(ROBOTS[0]).unwrap().lengths_m());
         assert!(mesh.vertices.len() / VERTEX < usize::from(u16::MAX));
+        let triangles = mesh.indices.len() / 3;
+        assert!(triangles < 7000, "{triangles} triangles: too many where a processor has to draw them");
         let standing = mesh.vertices.chunks_exact(VERTEX).filter(|v| v[6] < 2.0);
         assert!(standing.map(|v| v[2]).fold(1.0, f32::min).abs() < 1e-6);
     }

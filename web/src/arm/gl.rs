@@ -13,19 +13,19 @@ pub(super) type Failed = String;
 
 const FLOAT: i32 = 4;
 
-/// A canvas' WebGL2.
-pub(super) fn context(canvas: &HtmlCanvasElement) -> Result<Gl, Failed> {
-    let attributes = WebGlContextAttributes::new();
-    attributes.set_alpha(true);
-    attributes.set_antialias(true);
-    attributes.set_depth(true);
-    attributes.set_stencil(true);
-    canvas
-        .get_context_with_context_options("webgl2", attributes.as_ref())
-        .ok()
-        .flatten()
-        .and_then(|context| context.dyn_into().ok())
-        .ok_or_else(|| "this browser offers no WebGL2".to_owned())
+/// A canvas' WebGL2, and whether a processor has to do the graphics card's work.
+pub(super) fn context(canvas: &HtmlCanvasElement) -> Result<(Gl, bool), Failed> {
+    let attempt = |slow: bool| -> Option<Gl> {
+        let attributes = WebGlContextAttributes::new();
+        attributes.set_alpha(true);
+        attributes.set_depth(true);
+        attributes.set_stencil(true);
+        attributes.set_antialias(!slow);
+        attributes.set_fail_if_major_performance_caveat(!slow);
+        canvas.get_context_with_context_options("webgl2", attributes.as_ref()).ok()??.dyn_into().ok()
+    };
+    let fast = attempt(false).map(|gl| (gl, false));
+    fast.or_else(|| attempt(true).map(|gl| (gl, true))).ok_or_else(|| "this browser offers no WebGL2".to_owned())
 }
 
 /// A linked pair of shaders.
@@ -95,11 +95,13 @@ fn compile(gl: &Gl, kind: u32, source: &str) -> Result<WebGlShader, Failed> {
 /// Triangles on the graphics card.
 pub(super) struct Triangles {
     array: WebGlVertexArrayObject,
+    still: i32,
     count: i32,
 }
 
 impl Triangles {
-    pub fn new(gl: &Gl, mesh: &Mesh) -> Result<Self, Failed> {
+    /// Of a mesh whose first `still` indices are of parts that never move.
+    pub fn new(gl: &Gl, (mesh, still): &(Mesh, usize)) -> Result<Self, Failed> {
         let array = gl.create_vertex_array().ok_or("no vertex array could be made")?;
         gl.bind_vertex_array(Some(&array));
         fill(gl, Gl::ARRAY_BUFFER, &bytes(&mesh.vertices))?;
@@ -111,59 +113,70 @@ impl Triangles {
         let indices: Vec<u8> = mesh.indices.iter().flat_map(|index| index.to_le_bytes()).collect();
         fill(gl, Gl::ELEMENT_ARRAY_BUFFER, &indices)?;
         gl.bind_vertex_array(None);
-        Ok(Self { array, count: mesh.indices.len() as i32 })
+        Ok(Self { array, still: *still as i32, count: mesh.indices.len() as i32 })
     }
 
     pub fn draw(&self, gl: &Gl) {
         gl.bind_vertex_array(Some(&self.array));
         gl.draw_elements_with_i32(Gl::TRIANGLES, self.count, Gl::UNSIGNED_SHORT, 0);
     }
+
+    /// What moves alone.
+    pub fn draw_moving(&self, gl: &Gl) {
+        gl.bind_vertex_array(Some(&self.array));
+        let start = 2 * self.still;
+        gl.draw_elements_with_i32(Gl::TRIANGLES, self.count - self.still, Gl::UNSIGNED_SHORT, start);
+    }
 }
 
-/// Lines on the graphics card: stretches between points of four numbers, x, y, z and time.
+/// Lines on the graphics card: points of four numbers, x, y, z and time.
 pub(super) struct Lines {
     array: WebGlVertexArrayObject,
     buffer: WebGlBuffer,
-    /// Numbers from a stretch to the next: 4 where they hang together, 8 where each has its own two points.
-    step: usize,
-    count: i32,
+    /// First vertex and number of vertices of each line.
+    ranges: Vec<(i32, i32)>,
 }
 
+/// A point of a line.
+pub(super) type LinePoint = [f32; 4];
+
 impl Lines {
-    /// Of a path, each point joined to the next.
-    pub fn path(gl: &Gl, points: &[f32]) -> Result<Self, Failed> {
-        Self::new(gl, points, 4)
-    }
-
-    /// Of stretches that do not hang together.
-    pub fn stretches(gl: &Gl, points: &[f32]) -> Result<Self, Failed> {
-        Self::new(gl, points, 8)
-    }
-
-    fn new(gl: &Gl, points: &[f32], step: usize) -> Result<Self, Failed> {
+    /// Some lines, of two points or more each.
+    pub fn new(gl: &Gl, lines: &[Vec<LinePoint>]) -> Result<Self, Failed> {
         let array = gl.create_vertex_array().ok_or("no vertex array could be made")?;
         gl.bind_vertex_array(Some(&array));
-        let buffer = fill(gl, Gl::ARRAY_BUFFER, &bytes(points))?;
-        for attribute in 0..2 {
+        let buffer = fill(gl, Gl::ARRAY_BUFFER, &[])?;
+        // Every point stands in the buffer twice, so that its neighbours are two vertices away.
+        for attribute in 0..3 {
+            let stride = 4 * FLOAT;
             gl.enable_vertex_attrib_array(attribute);
-            let (stride, offset) = (step as i32 * FLOAT, attribute as i32 * 4 * FLOAT);
-            gl.vertex_attrib_pointer_with_i32(attribute, 4, Gl::FLOAT, false, stride, offset);
-            gl.vertex_attrib_divisor(attribute, 1);
+            gl.vertex_attrib_pointer_with_i32(attribute, 4, Gl::FLOAT, false, stride, 2 * stride * attribute as i32);
         }
         gl.bind_vertex_array(None);
-        Ok(Self { array, buffer, step, count: stretches(points, step) })
+        let mut this = Self { array, buffer, ranges: Vec::new() };
+        this.replace(gl, lines);
+        Ok(this)
     }
 
-    /// Puts other points in their place.
-    pub fn replace(&mut self, gl: &Gl, points: &[f32]) {
+    /// Puts other lines in their place.
+    pub fn replace(&mut self, gl: &Gl, lines: &[Vec<LinePoint>]) {
+        let mut numbers = Vec::new();
+        self.ranges.clear();
+        for line in lines {
+            self.ranges.push((numbers.len() as i32 / 4, 2 * line.len() as i32));
+            // A line's ends are neighbours of themselves: the direction there is that of the first or last stretch.
+            let whole = line.first().into_iter().chain(line).chain(line.last());
+            numbers.extend(whole.flat_map(|point| [point, point]).flatten());
+        }
         gl.bind_buffer(Gl::ARRAY_BUFFER, Some(&self.buffer));
-        gl.buffer_data_with_u8_array(Gl::ARRAY_BUFFER, &bytes(points), Gl::DYNAMIC_DRAW);
-        self.count = stretches(points, self.step);
+        gl.buffer_data_with_u8_array(Gl::ARRAY_BUFFER, &bytes(&numbers), Gl::DYNAMIC_DRAW);
     }
 
     pub fn draw(&self, gl: &Gl) {
         gl.bind_vertex_array(Some(&self.array));
-        gl.draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, 4, self.count);
+        for &(first, count) in &self.ranges {
+            gl.draw_arrays(Gl::TRIANGLE_STRIP, first, count);
+        }
     }
 
     /// Gives the memory back.
@@ -171,11 +184,6 @@ impl Lines {
         gl.delete_vertex_array(Some(&self.array));
         gl.delete_buffer(Some(&self.buffer));
     }
-}
-
-/// How many stretches these numbers make: one per two points, or per point but the last.
-fn stretches(points: &[f32], step: usize) -> i32 {
-    (points.len() + step).saturating_sub(8) as i32 / step as i32
 }
 
 /// A new buffer in the bound vertex array.

@@ -1,13 +1,15 @@
 //! Solids as triangles: bodies of revolution and tapered links with rounded edges, each vertex with its normal, the part of
 //! the arm that it moves with, and its material.
 
-use super::matrix::{Vec3, along, unit};
+use super::matrix::{Vec3, along, cross, dot, subtract, unit};
 use std::f32::consts::TAU;
 
 /// Numbers per vertex: position, normal, part, material.
 pub(crate) const VERTEX: usize = 8;
-/// Corners of a circle.
-const ROUND: usize = 48;
+/// Corners of a circle of this radius, m: as many as the eye misses not.
+fn corners(radius: f32) -> usize {
+    ((8.0 + 320.0 * radius) as usize).clamp(10, 44) / 2 * 2
+}
 
 /// Triangles of one or more solids.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -58,14 +60,15 @@ impl Place {
 impl Mesh {
     /// Turns a profile of `(height, radius)`, lowest first, about the place's third axis; each stretch has its own normals.
     pub fn lathe(&mut self, place: Place, kind: Kind, profile: &[[f32; 2]]) {
+        let round = corners(profile.iter().map(|[_, radius]| *radius).fold(0.0, f32::max));
         for pair in profile.windows(2) {
             let [[z0, r0], [z1, r1]] = [pair[0], pair[1]];
             let normal = unit([z1 - z0, 0.0, r0 - r1]);
             let ring = |step: usize, z: f32, r: f32| {
-                let (sin, cos) = angle(step);
+                let (sin, cos) = (TAU / round as f32 * (step % round) as f32).sin_cos();
                 (place.point([r * cos, r * sin, z]), place.direction([normal[0] * cos, normal[0] * sin, normal[2]]))
             };
-            self.strip(kind, (0..=ROUND).map(|step| [ring(step, z0, r0), ring(step, z1, r1)]));
+            self.strip(kind, (0..=round).map(|step| [ring(step, z0, r0), ring(step, z1, r1)]));
         }
     }
 
@@ -79,9 +82,9 @@ impl Mesh {
 
     /// A ball.
     pub fn ball(&mut self, place: Place, kind: Kind, radius: f32) {
-        let profile: Vec<_> = (0..=12)
+        let profile: Vec<_> = (0..=8)
             .map(|step| {
-                let (sin, cos) = (TAU / 24.0 * step as f32).sin_cos();
+                let (sin, cos) = (TAU / 16.0 * step as f32).sin_cos();
                 [-radius * cos, radius * sin]
             })
             .collect();
@@ -93,7 +96,7 @@ impl Mesh {
     pub fn link(&mut self, kind: Kind, shape: &Link) {
         let Link { from, upright, length, radii, thickness: [low, high], bevel } = *shape;
         let turn = ((radii[0] - radii[1]) / length).acos();
-        let half = ROUND / 2;
+        let half = corners(radii[0]) / 2;
         // Round the first circle where the band lies on it, then round the second, then back to the start.
         let first = (0..=half).map(|n| (turn + (TAU - 2.0 * turn) * n as f32 / half as f32, 0));
         let second = (0..=half).map(|n| (turn * (2.0 * n as f32 / half as f32 - 1.0), 1));
@@ -118,7 +121,7 @@ impl Mesh {
         }
     }
 
-    /// A band of triangles between pairs of (position, normal).
+    /// A band of triangles between pairs of (position, normal), each counter-clockwise for those who see its front.
     fn strip(&mut self, kind: Kind, pairs: impl Iterator<Item = [(Vec3, Vec3); 2]>) {
         let start = (self.vertices.len() / VERTEX) as u16;
         let mut count = 0;
@@ -129,8 +132,20 @@ impl Mesh {
             count += 1;
         }
         for n in (start..start + count).step_by(2).take(usize::from(count / 2).saturating_sub(1)) {
-            self.indices.extend([n, n + 1, n + 2, n + 2, n + 1, n + 3]);
+            for [a, b, c] in [[n, n + 1, n + 2], [n + 2, n + 1, n + 3]] {
+                self.indices.extend(if self.is_front(a, b, c) { [a, b, c] } else { [a, c, b] });
+            }
         }
+    }
+
+    /// Whether a triangle runs counter-clockwise where its first and last corners' normals point.
+    fn is_front(&self, a: u16, b: u16, c: u16) -> bool {
+        let at = |index: u16, from: usize| -> Vec3 {
+            let start = usize::from(index) * VERTEX + from;
+            [self.vertices[start], self.vertices[start + 1], self.vertices[start + 2]]
+        };
+        let face = cross(subtract(at(b, 0), at(a, 0)), subtract(at(c, 0), at(a, 0)));
+        dot(face, at(a, 3)) + dot(face, at(b, 3)) + dot(face, at(c, 3)) > 0.0
     }
 }
 
@@ -147,29 +162,22 @@ pub(crate) struct Link {
     pub bevel: f32,
 }
 
-fn angle(step: usize) -> (f32, f32) {
-    (TAU / ROUND as f32 * (step % ROUND) as f32).sin_cos()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arm::matrix::{cross, dot, subtract};
 
     const KIND: Kind = Kind { part: 1, material: 2 };
 
-    /// Volume that the triangles enclose, each turned the way its normals point; only right if they all point outwards.
+    /// Volume that the triangles enclose; only right if the solid is closed and every triangle's front is outside.
     fn volume(mesh: &Mesh) -> f32 {
-        let corner = |index: u16, from: usize| -> Vec3 {
-            let at = usize::from(index) * VERTEX + from;
+        let corner = |index: u16| -> Vec3 {
+            let at = usize::from(index) * VERTEX;
             [mesh.vertices[at], mesh.vertices[at + 1], mesh.vertices[at + 2]]
         };
         let triangles = mesh.indices.chunks_exact(3);
         let six = triangles.map(|t| {
-            let [a, b, c] = [0, 1, 2].map(|n| corner(t[n], 0));
-            let face = cross(subtract(b, a), subtract(c, a));
-            let normal = [0, 1, 2].map(|n| corner(t[n], 3)).into_iter().fold([0.0; 3], |sum, n| along(sum, 1.0, n));
-            dot(a, face) * dot(face, normal).signum()
+            let [a, b, c] = [0, 1, 2].map(|n| corner(t[n]));
+            dot(a, cross(subtract(b, a), subtract(c, a)))
         });
         six.sum::<f32>() / 6.0
     }

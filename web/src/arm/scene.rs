@@ -4,26 +4,26 @@
 
 use super::body::{PARTS, frames, solids};
 use super::camera::Look;
-use super::gl::{Failed, Lines, Program, Triangles, context};
+use super::gl::{Failed, LinePoint, Lines, Program, Triangles, context};
 use super::matrix::{Matrix, Vec3, along, unit};
 use super::motion::{Motion, Pose};
 use super::shaders;
 use super::view::View;
 use crate::runs::{Runs, ShownRun};
 use adaptarm_core::figures::{Rgb, Theme, scheme_style};
-use adaptarm_core::robots::{Kinematics, ROBOTS};
+use adaptarm_core::robots::{Kinematics, Point, ROBOTS};
 use std::collections::BTreeMap;
-use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl};
+use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlSync};
 
 /// Half the floor's side, m.
 const FLOOR: f32 = 1.25;
-/// Points of a path: about one per pixel that it spans.
-const PATH_POINTS: usize = 900;
+/// Points of a path: about one per pixel that it takes.
+const PATH_POINTS: usize = 600;
 /// Direction towards the light before it is made a unit.
 const LIGHT: Vec3 = [0.42, -0.62, 1.0];
 /// Where the axes stand on the floor, and how long they are, m.
-const AXES: Vec3 = [-0.05, -0.40, 0.001];
-const AXIS: f32 = 0.13;
+const AXES: Vec3 = [-0.24, -0.12, 0.001];
+const AXIS: f32 = 0.10;
 /// A time after every run's end: lines that are not about time are past.
 const ALWAYS: f32 = 1e9;
 
@@ -37,6 +37,10 @@ pub(super) struct Scene {
     axes: Lines,
     paths: BTreeMap<String, Path>,
     reach: f32,
+    /// Behind everything that has been asked of the graphics card.
+    fence: Option<WebGlSync>,
+    /// A processor does the graphics card's work.
+    pub is_slow: bool,
 }
 
 /// A run's paths, and what they were made from.
@@ -65,16 +69,18 @@ enum Shown {
 
 impl Scene {
     pub fn new(canvas: &HtmlCanvasElement) -> Result<Self, Failed> {
-        let gl = context(canvas)?;
+        let (gl, is_slow) = context(canvas)?;
         let arm = Kinematics::new(ROBOTS[0]).ok_or("this robot cannot be drawn")?;
         Ok(Self {
             solid: Program::new(&gl, shaders::SOLID_VERTEX, shaders::SOLID_FRAGMENT)?,
             floor: Program::new(&gl, shaders::FLOOR_VERTEX, shaders::FLOOR_FRAGMENT)?,
             line: Program::new(&gl, shaders::LINE_VERTEX, shaders::LINE_FRAGMENT)?,
             body: Triangles::new(&gl, &solids(arm.lengths_m()))?,
-            axes: Lines::stretches(&gl, &[])?,
+            axes: Lines::new(&gl, &[])?,
             paths: BTreeMap::new(),
             reach: arm.lengths_m()[1..].iter().sum::<f64>() as f32,
+            fence: None,
+            is_slow,
             gl,
         })
     }
@@ -103,7 +109,18 @@ impl Scene {
                 self.draw_run(&cell, id, run)?;
             }
         }
+        if let Some(done) = self.fence.take() {
+            gl.delete_sync(Some(&done));
+        }
+        self.fence = gl.fence_sync(Gl::SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
         Ok(())
+    }
+
+    /// Whether the latest drawing is still being made.
+    pub fn is_busy(&self) -> bool {
+        let status = |fence| self.gl.get_sync_parameter(fence, Gl::SYNC_STATUS).as_f64();
+        self.fence.as_ref().is_some_and(|fence| status(fence) == Some(f64::from(Gl::UNSIGNALED)))
     }
 
     /// Deletes the paths of runs that are not wanted any more.
@@ -128,6 +145,8 @@ impl Scene {
         gl.enable(Gl::BLEND);
         gl.depth_mask(false);
         gl.bind_vertex_array(None);
+        // Seen from below too, if an eye ever gets there.
+        gl.disable(Gl::CULL_FACE);
         gl.draw_arrays(Gl::TRIANGLE_STRIP, 0, 4);
     }
 
@@ -155,20 +174,19 @@ impl Scene {
         if self.paths.get(id).is_some_and(current) {
             return Ok(());
         }
-        let (mut actual, mut desired) = (Vec::with_capacity(4 * PATH_POINTS), Vec::with_capacity(4 * PATH_POINTS));
+        let (mut actual, mut desired) = (Vec::with_capacity(PATH_POINTS), Vec::with_capacity(PATH_POINTS));
         for sample in motion.path_samples(PATH_POINTS) {
             let pose = motion.at_sample(sample, exaggeration);
-            for (points, tip) in [(&mut actual, pose.actual.tip), (&mut desired, pose.desired.tip)] {
-                points.extend(tip.map(|coordinate| coordinate as f32));
-                points.push(motion.time_s(sample) as f32);
-            }
+            let point = |[x, y, z]: Point| [x as f32, y as f32, z as f32, motion.time_s(sample) as f32];
+            actual.push(point(pose.actual.tip));
+            desired.push(point(pose.desired.tip));
         }
         if let Some(path) = self.paths.get_mut(id) {
-            path.actual.replace(&self.gl, &actual);
-            path.desired.replace(&self.gl, &desired);
+            path.actual.replace(&self.gl, &[actual]);
+            path.desired.replace(&self.gl, &[desired]);
             (path.revision, path.exaggeration) = (run.revision, exaggeration);
         } else {
-            let (actual, desired) = (Lines::path(&self.gl, &actual)?, Lines::path(&self.gl, &desired)?);
+            let (actual, desired) = (Lines::new(&self.gl, &[actual])?, Lines::new(&self.gl, &[desired])?);
             self.paths.insert(id.to_owned(), Path { revision: run.revision, exaggeration, actual, desired });
         }
         Ok(())
@@ -183,7 +201,7 @@ impl Scene {
         gl.stencil_op(Gl::KEEP, Gl::KEEP, Gl::INCR);
         let shadow = if cell.theme == Theme::Dark { 0.42 } else { 0.16 };
         self.prepare_solids(cell, &parts, paint, Shown::Shadow, shadow);
-        self.body.draw(gl);
+        self.body.draw_moving(gl);
         gl.disable(Gl::STENCIL_TEST);
         gl.disable(Gl::BLEND);
         gl.depth_mask(true);
@@ -201,10 +219,10 @@ impl Scene {
         gl.polygon_offset(1.0, 8.0);
         gl.depth_mask(true);
         gl.color_mask(false, false, false, false);
-        self.body.draw(gl);
+        self.body.draw_moving(gl);
         gl.color_mask(true, true, true, true);
         gl.depth_mask(false);
-        self.body.draw(gl);
+        self.body.draw_moving(gl);
         gl.disable(Gl::POLYGON_OFFSET_FILL);
         gl.depth_mask(true);
     }
@@ -225,6 +243,7 @@ impl Scene {
 
     fn prepare_solids(&self, cell: &Cell<'_>, parts: &[Matrix; PARTS], paint: Vec3, shown: Shown, strength: f32) {
         let (gl, solid) = (&self.gl, &self.solid);
+        gl.enable(Gl::CULL_FACE);
         let (metal, body): (Vec3, Vec3) = match cell.theme {
             Theme::Light => ([0.27, 0.30, 0.35], [0.90, 0.91, 0.93]),
             Theme::Dark => ([0.24, 0.27, 0.32], [0.72, 0.75, 0.80]),
@@ -248,6 +267,7 @@ impl Scene {
         line.number(gl, "u_width", width * cell.view.scale);
         line.number(gl, "u_now", now);
         gl.enable(Gl::BLEND);
+        gl.disable(Gl::CULL_FACE);
         gl.depth_mask(false);
     }
 }
@@ -259,31 +279,28 @@ impl Path {
     }
 }
 
-/// The axes as stretches, each with its letter turned to the eye.
-fn axes(look: &Look) -> Vec<f32> {
+/// The axes, each with its letter turned to the eye.
+fn axes(look: &Look) -> Vec<Vec<LinePoint>> {
     const LETTERS: [&[[f32; 4]]; 3] = [
         &[[-1.0, -1.0, 1.0, 1.0], [-1.0, 1.0, 1.0, -1.0]],
         &[[0.0, -1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0], [0.0, 0.0, 1.0, 1.0]],
         &[[-1.0, 1.0, 1.0, 1.0], [1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, -1.0]],
     ];
-    let mut points = Vec::new();
+    let mut lines = Vec::new();
     let mut stretch = |from: Vec3, to: Vec3| {
-        for point in [from, to] {
-            points.extend(point);
-            points.push(0.0);
-        }
+        lines.push([from, to].map(|[x, y, z]| [x, y, z, 0.0]).to_vec());
     };
     for (axis, letter) in LETTERS.iter().enumerate() {
         let mut direction = [0.0; 3];
         direction[axis] = 1.0;
         stretch(AXES, along(AXES, AXIS, direction));
-        let middle = along(AXES, AXIS + 0.035, direction);
-        let at = |x: f32, y: f32| along(along(middle, 0.011 * x, look.right), 0.016 * y, look.up);
+        let middle = along(AXES, AXIS + 0.03, direction);
+        let at = |x: f32, y: f32| along(along(middle, 0.009 * x, look.right), 0.013 * y, look.up);
         for [x0, y0, x1, y1] in *letter {
             stretch(at(*x0, *y0), at(*x1, *y1));
         }
     }
-    points
+    lines
 }
 
 fn color((red, green, blue): Rgb) -> Vec3 {

@@ -48,7 +48,7 @@ void main() {
   vec3 towards = normalize(u_eye - v_at);
   float facing = abs(dot(n, towards));
   if (u_look == 2) {
-    float alpha = mix(0.62, 0.20, pow(facing, 0.7));
+    float alpha = mix(0.80, 0.26, pow(facing, 0.6));
     color = vec4(u_ink * alpha, alpha);
     return;
   }
@@ -59,7 +59,7 @@ void main() {
   float fill = max(dot(n, side), 0.0);
   float shine = pow(max(dot(n, normalize(u_light + towards)), 0.0), 48.0);
   float rim = pow(1.0 - facing, 3.0);
-  vec3 lit = base * (mix(0.40, 0.62, sky) + 0.50 * key + 0.10 * fill) + vec3(0.20 * shine) + u_strength * rim;
+  vec3 lit = base * (mix(0.34, 0.56, sky) + 0.44 * key + 0.08 * fill + 0.20 * facing) + vec3(0.20 * shine) + u_strength * rim;
   color = vec4(min(lit, vec3(1.0)), 1.0);
 }";
 
@@ -96,10 +96,11 @@ void main() {
   color = vec4(u_ink * alpha, alpha);
 }";
 
-/// Each instance is a stretch from one point to the next: x, y, z (m) and time (s).
+/// Two vertices per point, one on each side of the line; each knows its neighbours: x, y, z (m) and time (s).
 pub(super) const LINE_VERTEX: &str = "#version 300 es
-layout(location = 0) in vec4 a_from;
-layout(location = 1) in vec4 a_to;
+layout(location = 0) in vec4 a_before;
+layout(location = 1) in vec4 a_at;
+layout(location = 2) in vec4 a_after;
 uniform mat4 u_projection;
 uniform vec2 u_viewport;
 uniform float u_width;
@@ -108,19 +109,18 @@ out float v_time;
 out float v_across;
 out float v_half;
 void main() {
-  float end = float(gl_VertexID >> 1);
   float side = float(gl_VertexID & 1) * 2.0 - 1.0;
-  vec4 from = u_projection * vec4(a_from.xyz, 1.0);
-  vec4 to = u_projection * vec4(a_to.xyz, 1.0);
-  vec2 along = (to.xy / to.w - from.xy / from.w) * u_viewport;
+  vec4 before = u_projection * vec4(a_before.xyz, 1.0);
+  vec4 after = u_projection * vec4(a_after.xyz, 1.0);
+  vec4 at = u_projection * vec4(a_at.xyz, 1.0);
+  vec2 along = (after.xy / after.w - before.xy / before.w) * u_viewport;
   along = dot(along, along) > 1e-8 ? normalize(along) : vec2(1.0, 0.0);
-  v_time = mix(a_from.w, a_to.w, end);
+  v_time = a_at.w;
   float age = u_now - v_time;
   float recent = age >= -0.01 ? exp(-age / 0.4) : 0.0;
   v_half = 0.5 * u_width * (1.0 + 0.9 * recent) + 0.75;
   v_across = side * v_half;
-  vec4 at = mix(from, to, end);
-  at.xy += vec2(-along.y, along.x) * side * v_half * 2.0 / u_viewport * at.w;
+  at.xy += vec2(-along.y, along.x) * v_across * 2.0 / u_viewport * at.w;
   gl_Position = at;
 }";
 

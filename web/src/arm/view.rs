@@ -51,6 +51,18 @@ mod drawing {
             Ok(Self { scene: Scene::new(canvas).map_err(Failure::new)? })
         }
 
+        /// Whether a processor does the graphics card's work, so that drawings should be few and small.
+        #[wasm_bindgen(getter)]
+        pub fn is_slow(&self) -> bool {
+            self.scene.is_slow
+        }
+
+        /// Whether the latest drawing is still being made: another one would only wait behind it.
+        #[wasm_bindgen(getter)]
+        pub fn is_busy(&self) -> bool {
+            self.scene.is_busy()
+        }
+
         /// Draws; `view_json` is a [`View`]. Throws JSON text `{pointer, message}`.
         pub fn draw(&mut self, runs: &Runs, view_json: &str) -> Result<(), JsValue> {
             let view: View = serde_json::from_str(view_json).map_err(|error| Failure::new(error.to_string()))?;
