@@ -79,7 +79,10 @@ fn upper_arm(mesh: &mut Mesh, length: f32) {
         mesh.link(kind(2, PAINT), &plate);
         for (x, radius) in [(0.0, 0.046), (length, 0.036)] {
             let cap = [[0.070, radius], [0.079, radius], [0.083, radius - 0.004], [0.083, 0.0]];
-            let cap = cap.map(|[height, radius]| [side * height, radius]);
+            let mut cap = cap.map(|[height, radius]| [side * height, radius]);
+            if side < 0.0 {
+                cap.reverse();
+            }
             mesh.lathe(Place::along_y([x, 0.0, 0.0]), kind(2, METAL), &cap);
         }
     }

@@ -60,6 +60,7 @@ impl Place {
 impl Mesh {
     /// Turns a profile of `(height, radius)`, lowest first, about the place's third axis; each stretch has its own normals.
     pub fn lathe(&mut self, place: Place, kind: Kind, profile: &[[f32; 2]]) {
+        debug_assert!(profile.windows(2).all(|pair| pair[0][0] <= pair[1][0]), "a profile starts at its lowest");
         let round = corners(profile.iter().map(|[_, radius]| *radius).fold(0.0, f32::max));
         for pair in profile.windows(2) {
             let [[z0, r0], [z1, r1]] = [pair[0], pair[1]];
