@@ -159,7 +159,8 @@ impl Recording {
         hasher.update(b"adaptarm.trajectory/1");
         hasher.update(&(self.columns.joints as u64).to_le_bytes());
         hasher.update(&(self.columns.parameters as u64).to_le_bytes());
-        let mut bytes = [0; 4096];
+        // Long enough for BLAKE3 to hash many of its 1024-byte chunks side by side.
+        let mut bytes = vec![0; 1 << 16];
         for numbers in self.rows.chunks(bytes.len() / 8) {
             for (bytes, number) in bytes.chunks_exact_mut(8).zip(numbers) {
                 bytes.copy_from_slice(&number.to_le_bytes());

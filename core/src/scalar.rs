@@ -35,6 +35,8 @@ pub trait Scalar:
     fn abs(self) -> Self;
     /// `self < other`, lane by lane; false where either is not a number.
     fn less_than(self, other: Self) -> Self::Mask;
+    /// Whether the mask holds anywhere.
+    fn any(mask: Self::Mask) -> bool;
     /// `if_true` where the mask holds, `if_false` elsewhere.
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
 
@@ -68,6 +70,10 @@ impl Scalar for f64 {
     #[inline]
     fn less_than(self, other: Self) -> bool {
         self < other
+    }
+    #[inline]
+    fn any(mask: bool) -> bool {
+        mask
     }
     #[inline]
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {

@@ -11,7 +11,8 @@ export class Laboratory extends EventTarget {
   #pool = null;
   /** Scheme to the generation of its newest run. */
   #wanted = {};
-  /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, or `{generation, failure}`. */
+  /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, `{generation, stoppedAt}` with the
+   *  share that was simulated, or `{generation, failure}`. */
   results = {};
   /** Scheme to progress of the run under way, 0 to 1. */
   progress = {};
@@ -89,8 +90,30 @@ export class Laboratory extends EventTarget {
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
-  advanced({ scheme, progress }) {
+  /** A run under way: what it has recorded so far is shown, unless a newer run waits already. */
+  advanced({ scheme, generation, scenario, progress, rows }) {
+    if (generation !== this.#wanted[scheme]) {
+      return;
+    }
     this.progress[scheme] = progress;
+    this.#runs.set(scheme, scenario, rows, true);
     this.dispatchEvent(new CustomEvent("progress", { detail: { scheme } }));
+  }
+
+  stopped({ scheme, generation, progress }) {
+    if (generation === this.#wanted[scheme]) {
+      this.results[scheme] = { generation, stoppedAt: progress };
+      this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
+    }
+  }
+
+  /** Stops a scheme's run where it is. */
+  stop(scheme) {
+    this.#pool.stop(scheme);
+  }
+
+  /** Runs a scheme's document again, though nothing changed: after it was stopped. */
+  again(scheme) {
+    this.#submit([scheme]);
   }
 }

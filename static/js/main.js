@@ -82,6 +82,7 @@ function build(app) {
     root.dataset.state = "running";
     root.dataset.generation = laboratory.generation;
     byId("run-state").textContent = strings.stateRunning;
+    timeline.duration = state.valueAt(description.schemes[0].id, "/integration/duration_s");
     showSetup();
     showGains();
   });
@@ -91,6 +92,7 @@ function build(app) {
   });
   laboratory.addEventListener("progress", ({ detail: { scheme } }) => {
     cards[scheme].progress = laboratory.progress[scheme];
+    figures.redraw();
   });
   let pendingText = null;
   laboratory.addEventListener("result", ({ detail: { scheme } }) => {
@@ -99,12 +101,11 @@ function build(app) {
     figures.redraw();
     const texts = () => {
       pendingText = null;
-      timeline.duration = state.valueAt(description.schemes[0].id, "/integration/duration_s");
       showTables(results);
       figures.describe(reportsOf(results), timeline.duration);
     };
-    // Once a frame, like the figures, however many results arrive in it.
-    pendingText ??= requestAnimationFrame(texts);
+    // In a task of their own behind the next frame: first the pixels.
+    pendingText ??= requestAnimationFrame(() => setTimeout(texts));
     if (laboratory.isReady) {
       figures.redraw(() => finished(laboratory, generation, description));
     }
@@ -115,14 +116,15 @@ function build(app) {
     done: (result) => laboratory.done(result),
     failed: (failure) => laboratory.failed(failure),
     progress: (progress) => laboratory.advanced(progress),
+    stopped: (stop) => laboratory.stopped(stop),
     restarted: () => notice(strings.workerRestarted, "warning"),
-    stopped: (message) => notice(strings.failed(`${strings.workerGone}: ${message}`), "error"),
+    gaveUp: (message) => notice(strings.failed(`${strings.workerGone}: ${message}`), "error"),
   });
   laboratory.begin(pool);
 }
 
 function buildCards(app) {
-  const { description, state } = app;
+  const { description, state, laboratory } = app;
   const cards = {};
   for (const scheme of description.schemes) {
     const card = element("scheme-card");
@@ -132,6 +134,8 @@ function buildCards(app) {
       state.remember();
       showSchemes(app);
     });
+    card.addEventListener("stop", () => laboratory.stop(scheme.id));
+    card.addEventListener("again", () => laboratory.again(scheme.id));
     card.addEventListener("copied", () => announce(strings.copied));
     cards[scheme.id] = card;
     byId("scheme-cards").append(card);
@@ -167,12 +171,17 @@ function finished(laboratory, generation, description) {
   root.dataset.state = "ready";
   byId("run-state").textContent = strings.stateReady(latency);
   const parts = description.schemes.map(({ id, name }) => {
-    const { report, failure } = laboratory.results[id];
-    const ended =
-      report?.outcome === "diverged" ? strings.diverged(formatSeconds(report.at_s), report.reason) : (report?.outcome ?? failure);
-    return `${name}: ${ended}.`;
+    return `${name}: ${endOf(laboratory.results[id])}.`;
   });
   announce(strings.announceReady(parts.join(" ")));
+}
+
+/** How a run ended, in words. */
+function endOf({ report, stoppedAt, failure }) {
+  if (!report) {
+    return failure ? strings.failed(failure) : strings.stoppedAt(Math.floor(100 * stoppedAt));
+  }
+  return report.outcome === "diverged" ? strings.diverged(formatSeconds(report.at_s), report.reason) : strings.ended;
 }
 
 function reportsOf(results) {

@@ -13,11 +13,12 @@ export class RunPool {
   /** Scheme to waiting job; a replaced job keeps its place in the line. */
   #waiting = new Map();
   #jobs = 0;
-  #stopped = false;
+  #gaveUp = false;
 
   /**
-   * `handlers`: `done({scheme, generation, scenario, report, rows, elapsed_ms})`, `progress({scheme, progress})`,
-   * `failed({scheme, generation, message})`, `restarted()`.
+   * `handlers`: `done({scheme, generation, scenario, report, rows, elapsed_ms})`,
+   * `progress({scheme, generation, scenario, progress, rows})`, `stopped({scheme, generation, progress})` after `stop`,
+   * `failed({scheme, generation, message})`, `restarted()`, `gaveUp(message)` when workers keep dying.
    */
   constructor(module, size, handlers) {
     this.#module = module;
@@ -33,10 +34,25 @@ export class RunPool {
     this.#waiting.set(scheme, { id: (this.#jobs += 1), scheme, generation, scenario, attempts: 0 });
     for (const { job, worker } of this.#workers) {
       if (job?.scheme === scheme) {
-        worker.postMessage({ type: "abandon", job: job.id });
+        worker.postMessage({ type: "abandon", job: job.id, now: false });
       }
     }
     this.#dispatch();
+  }
+
+  /** Stops a scheme's run, waiting or under way. */
+  stop(scheme) {
+    const waiting = this.#waiting.get(scheme);
+    if (waiting) {
+      this.#waiting.delete(scheme);
+      this.#handlers.stopped({ scheme, generation: waiting.generation, progress: 0 });
+    }
+    for (const { job, worker } of this.#workers) {
+      if (job?.scheme === scheme) {
+        job.stop = true;
+        worker.postMessage({ type: "abandon", job: job.id, now: true });
+      }
+    }
   }
 
   #dispatch() {
@@ -74,9 +90,9 @@ export class RunPool {
       slot.ready = true;
       slot.failures = 0;
     } else if (data.job === slot.job?.id) {
-      const { scheme, generation, scenario } = slot.job;
+      const { scheme, generation, scenario, stop } = slot.job;
       if (data.type === "progress") {
-        this.#handlers.progress({ scheme, progress: data.progress });
+        this.#handlers.progress({ scheme, generation, scenario, progress: data.progress, rows: data.rows });
         return;
       }
       if (data.type === "failed") {
@@ -87,6 +103,8 @@ export class RunPool {
       if (data.type === "done") {
         const { report, rows, elapsed_ms } = data;
         this.#handlers.done({ scheme, generation, scenario, report, rows, elapsed_ms });
+      } else if (stop) {
+        this.#handlers.stopped({ scheme, generation, progress: data.progress });
       }
     }
     this.#dispatch();
@@ -115,9 +133,9 @@ export class RunPool {
       }
     }
     if (slot.failures > ATTEMPTS) {
-      if (!this.#stopped) {
-        this.#stopped = true;
-        this.#handlers.stopped(message);
+      if (!this.#gaveUp) {
+        this.#gaveUp = true;
+        this.#handlers.gaveUp(message);
       }
       return;
     }

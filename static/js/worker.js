@@ -1,7 +1,7 @@
 // A worker: advances one run at a time in slices, so that between slices it can hear that the run is stale.
 //
-// In:  {type: "start", module} | {type: "run", job, scenario} | {type: "abandon", job}
-// Out: {type: "ready"} | {type: "progress", job, progress} | {type: "abandoned", job}
+// In:  {type: "start", module} | {type: "run", job, scenario} | {type: "abandon", job, now}
+// Out: {type: "ready"} | {type: "progress", job, progress, rows} | {type: "abandoned", job, progress}
 //      {type: "done", job, report, rows, elapsed_ms} | {type: "failed", job, message}
 
 import init, { Run } from "../generated/adaptarm_web.js";
@@ -11,8 +11,11 @@ const SLICE_MS = 6;
 /** A stale run that ends this soon is finished: while a slider is dragged, something must get to the screen. */
 const NEARLY_DONE_MS = 80;
 const PROGRESS_EVERY_MS = 100;
+/** What is drawn of a run under way: a picture is no wider than this. */
+const PARTIAL_ROWS = 1500;
 
-let abandoned = null;
+/** The run to give up, and whether at once. */
+let abandoned = { job: null, now: false };
 
 // A macrotask without the delay that nested timeouts get: lets waiting messages in.
 const channel = new MessageChannel();
@@ -41,13 +44,14 @@ async function compute(job, scenario) {
       steps = Math.max(1, Math.round(steps * Math.min(2, Math.max(0.5, SLICE_MS / (now - before || 1)))));
       const progress = run.progress();
       const left = ((now - start) / progress) * (1 - progress);
-      if (abandoned === job && left > NEARLY_DONE_MS) {
-        postMessage({ type: "abandoned", job });
+      if (abandoned.job === job && (abandoned.now || left > NEARLY_DONE_MS)) {
+        postMessage({ type: "abandoned", job, progress });
         return;
       }
       if (now - reported > PROGRESS_EVERY_MS) {
         reported = now;
-        postMessage({ type: "progress", job, progress });
+        const rows = run.partial_rows(PARTIAL_ROWS);
+        postMessage({ type: "progress", job, progress, rows }, [rows.buffer]);
       }
     }
     const rows = run.rows();
@@ -63,7 +67,7 @@ onmessage = async ({ data }) => {
     await init({ module_or_path: data.module });
     postMessage({ type: "ready" });
   } else if (data.type === "abandon") {
-    abandoned = data.job;
+    abandoned = { job: data.job, now: data.now };
   } else if (data.type === "run") {
     try {
       await compute(data.job, data.scenario);

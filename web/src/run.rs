@@ -59,6 +59,13 @@ impl Run {
         serde_json::to_string(&self.finished()?.report).map_err(|error| Failure::new(error.to_string()).into())
     }
 
+    /// What has been recorded so far, thinned to at most `most` rows of those at equal distances: enough for a picture of a
+    /// run under way. Empty once the run has ended.
+    #[cfg(target_arch = "wasm32")]
+    pub fn partial_rows(&self, most: u32) -> js_sys::Float64Array {
+        js_sys::Float64Array::from(self.thinned(most as usize).as_slice())
+    }
+
     /// All recorded rows, one after another, SI units: a copy that can be transferred. Throws before the run has ended.
     #[cfg(target_arch = "wasm32")]
     pub fn rows(&self) -> Result<js_sys::Float64Array, JsValue> {
@@ -67,6 +74,14 @@ impl Run {
 }
 
 impl Run {
+    #[cfg_attr(not(target_arch = "wasm32"), allow(dead_code, reason = "only the browser and a test ask"))]
+    fn thinned(&self, most: usize) -> Vec<f64> {
+        let Stage::Running(simulation) = &self.stage else { return Vec::new() };
+        let recording = simulation.recording();
+        let every = recording.len().div_ceil(most.max(1)).max(1);
+        recording.rows().chunks_exact(recording.columns().width()).step_by(every).flatten().copied().collect()
+    }
+
     fn finished(&self) -> Result<&scenario::Run, Failure> {
         if let Stage::Finished(run) = &self.stage { Ok(run) } else { Err(Failure::new("the run has not ended")) }
     }
@@ -82,9 +97,13 @@ mod tests {
             r#"{"format":"adaptarm.scenario/1","scheme":{"kind":"slotine_li"},"integration":{"duration_s":0.5}}"#;
         let Ok(mut run) = Run::new(json) else { panic!("the scenario is allowed") };
         assert!(run.finished().is_err());
+        let width = adaptarm_core::recording::Columns { joints: 3, parameters: 18 }.width();
         while !run.advance(7) {
             assert!(run.progress() < 1.0);
+            let thinned = run.thinned(10);
+            assert!(thinned.len() <= 10 * width && thinned.len().is_multiple_of(width));
         }
+        assert!(run.thinned(10).is_empty());
         let expected = read(json).unwrap().run().report;
         assert_eq!(run.finished().unwrap().report, expected);
     }

@@ -43,6 +43,7 @@ pub struct CompositeAdaptation<R, T, const N: usize, const P: usize> {
 impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
     #[inline]
     fn theta_hat_rate(&self, w: &[T], gradient: &SVector<T, P>, theta_hat: &[T], rate: &mut [T]) {
+        let (w, theta_hat, rate) = (&w[..P], &theta_hat[..P], &mut rate[..P]);
         match self {
             Self::Additive { gain, memory_gain } => {
                 for k in 0..P {

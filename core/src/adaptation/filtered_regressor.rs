@@ -51,8 +51,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
     ) -> (Regressor<T, N, P>, SVector<T, N>) {
         let momentum = R::momentum_regressor(geometry, velocity);
         let balance = R::balance_regressor(geometry, velocity, sign_velocity);
-        let (x, tau_f) = states.split_at(R::ENTRIES.len());
-        let (x_rate, tau_f_rate) = rate.split_at_mut(R::ENTRIES.len());
+        let (x, tau_f) = states[..Self::STATES].split_at(R::ENTRIES.len());
+        let (x_rate, tau_f_rate) = rate[..Self::STATES].split_at_mut(R::ENTRIES.len());
         let mut filtered = Regressor::<T, N, P>::zeros();
         unrolled!(R::ENTRIES.len(), n => {
             let entry = R::ENTRIES[n];

@@ -43,19 +43,19 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     ) {
         let prediction_error = model_torque::<R, T, N, P>(filtered, theta_hat) - filtered_torque;
         let correlation = gradient::<R, T, N, P>(filtered, &prediction_error);
-        let (w, z) = states.split_at(P);
-        let (w_rate, z_rate) = rate.split_at_mut(P);
+        let (w, z) = states[..Self::STATES].split_at(P);
+        let (w_rate, z_rate) = rate[..Self::STATES].split_at_mut(P);
+        let theta_hat_rate = &theta_hat_rate[..P];
         for k in 0..P {
             w_rate[k] = self.gain * correlation[k] - self.forgetting * w[k];
         }
         unrolled!(R::PAIRS.len(), n => {
             let (i, j) = R::PAIRS[n];
-            let mut product = T::zero();
-            for row in 0..N {
-                if R::LIVE[row][i] && R::LIVE[row][j] {
-                    product += filtered[(row, i)] * filtered[(row, j)];
-                }
-            }
+            let product = (0..N)
+                .filter(|&row| R::LIVE[row][i] && R::LIVE[row][j])
+                .map(|row| filtered[(row, i)] * filtered[(row, j)])
+                .reduce(|sum, term| sum + term)
+                .unwrap_or(T::zero());
             z_rate[n] = self.gain * product - self.forgetting * z[n];
             w_rate[i] += z[n] * theta_hat_rate[j];
             if i != j {

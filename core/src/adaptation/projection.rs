@@ -25,17 +25,23 @@ impl<T: Scalar, const P: usize> Projection<T, P> {
     /// `f_b,i` for estimate θ̂_i that is driven by `drive_i = β w_i + (Yᵀ s)_i`. Source: paper eq. (19), (20).
     #[inline]
     pub fn correction(&self, i: usize, theta_hat: T, drive: T) -> T {
-        let below = fraction((self.lower[i] - theta_hat) / self.lower_margin[i]);
-        let above = fraction((theta_hat - self.upper[i]) / self.upper_margin[i]);
+        let below = fraction(self.lower[i] - theta_hat, self.lower_margin[i]);
+        let above = fraction(theta_hat - self.upper[i], self.upper_margin[i]);
         (above - below) * self.strength * drive.abs()
     }
 }
 
-/// δ: how deep into a margin, between 0 and 1.
+/// δ: how deep into a margin, as a share of its width between 0 and 1. Outside, where estimates are nearly always, it takes
+/// no division.
 #[inline]
-fn fraction<T: Scalar>(depth: T) -> T {
+fn fraction<T: Scalar>(depth: T, width: T) -> T {
     let (zero, one) = (T::zero(), T::one());
-    T::select(zero.less_than(depth), T::select(depth.less_than(one), depth, one), zero)
+    let inside = zero.less_than(depth);
+    if !T::any(inside) {
+        return zero;
+    }
+    let share = depth / width;
+    T::select(inside, T::select(share.less_than(one), share, one), zero)
 }
 
 #[cfg(test)]

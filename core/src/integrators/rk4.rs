@@ -5,15 +5,15 @@ use crate::scalar::Scalar;
 /// Work space for a state of a given length; no step allocates.
 #[derive(Debug, Clone)]
 pub struct Rk4<T> {
-    slope: Vec<T>,
-    sum: Vec<T>,
+    /// k1..k4.
+    slopes: [Vec<T>; 4],
     stage: Vec<T>,
 }
 
 impl<T: Scalar> Rk4<T> {
     /// Work space for `len` states.
     pub fn new(len: usize) -> Self {
-        Self { slope: vec![T::zero(); len], sum: vec![T::zero(); len], stage: vec![T::zero(); len] }
+        Self { slopes: std::array::from_fn(|_| vec![T::zero(); len]), stage: vec![T::zero(); len] }
     }
 
     /// Advances `x` from `start_s` to `end_s`: `x + h/6 (k1 + 2 k2 + 2 k3 + k4)`.
@@ -23,25 +23,28 @@ impl<T: Scalar> Rk4<T> {
         let middle_s = start_s + 0.5 * h;
         let (half, full) = (T::splat(0.5 * h), T::splat(h));
         let (sixth, two) = (T::splat(h / 6.0), T::splat(2.0));
+        let Self { slopes: [k1, k2, k3, k4], stage } = self;
 
-        f(start_s, x, &mut self.slope);
-        for (((sum, stage), k), x) in self.sum.iter_mut().zip(&mut self.stage).zip(&self.slope).zip(&*x) {
-            *sum = *k;
-            *stage = *x + half * *k;
-        }
-        for reach in [half, full] {
-            f(middle_s, &self.stage, &mut self.slope);
-            for (((sum, stage), k), x) in self.sum.iter_mut().zip(&mut self.stage).zip(&self.slope).zip(&*x) {
-                *sum += two * *k;
-                *stage = *x + reach * *k;
-            }
-        }
-        f(end_s, &self.stage, &mut self.slope);
+        f(start_s, x, k1);
+        reach(stage, x, half, k1);
+        f(middle_s, stage, k2);
+        reach(stage, x, half, k2);
+        f(middle_s, stage, k3);
+        reach(stage, x, full, k3);
+        f(end_s, stage, k4);
         // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
         // does), several small increments would each be lost and leave it beside the equilibrium.
-        for ((x, sum), k4) in x.iter_mut().zip(&self.sum).zip(&self.slope) {
-            *x += sixth * (*sum + *k4);
+        for ((((x, k1), k2), k3), k4) in x.iter_mut().zip(&*k1).zip(&*k2).zip(&*k3).zip(&*k4) {
+            *x += sixth * (*k1 + two * *k2 + two * *k3 + *k4);
         }
+    }
+}
+
+/// `stage = x + h k`. A function, so that the compiler knows that the three do not overlap.
+#[inline(never)]
+fn reach<T: Scalar>(stage: &mut [T], x: &[T], h: T, k: &[T]) {
+    for ((stage, x), k) in stage.iter_mut().zip(x).zip(k) {
+        *stage = *x + h * *k;
     }
 }
 

@@ -277,8 +277,7 @@ impl Simulation {
 
 /// Whether the state is finite and near its trajectory.
 fn check(system: &dyn StateSpace<f64>, time_s: f64, x: &[f64], error: &mut [f64]) -> Result<(), Divergence> {
-    // No early end: without a branch per number this costs next to nothing.
-    if x.iter().fold(false, |bad, x| bad | !x.is_finite()) {
+    if !are_finite(x) {
         return Err(Divergence::NotFinite);
     }
     system.tracking_error(time_s, x, error);
@@ -288,6 +287,19 @@ fn check(system: &dyn StateSpace<f64>, time_s: f64, x: &[f64], error: &mut [f64]
         }
     }
     Ok(())
+}
+
+/// Whether all numbers are finite. Zero times a number that is not is no number, and sixteen sums side by side need no
+/// branches: this costs next to nothing.
+fn are_finite(x: &[f64]) -> bool {
+    let mut zeros = [0.0; 16];
+    let (blocks, rest) = x.as_chunks();
+    for block in blocks {
+        for (zero, x) in zeros.iter_mut().zip::<&[f64; 16]>(block) {
+            *zero += x * 0.0;
+        }
+    }
+    zeros.iter().chain(rest).all(|x| x.is_finite())
 }
 
 /// Cubic Hermite interpolation at the fraction `s` of a step of length `h`, between its ends.

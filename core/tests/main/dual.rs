@@ -113,6 +113,9 @@ impl Scalar for Dual {
     fn less_than(self, other: Self) -> bool {
         self.value < other.value
     }
+    fn any(mask: bool) -> bool {
+        mask
+    }
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

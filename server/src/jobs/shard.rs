@@ -3,7 +3,7 @@
 
 use super::compute::{Control, Finished, Stretch, compute};
 use super::shared::Shared;
-use super::{Claim, Order, StoreError, StoredResult, Tick};
+use super::{Claim, Delivered, Order, StoreError, StoredResult, Tick};
 use crate::metrics::{self, FailureReason};
 use crate::results::ResultError;
 use adaptarm_core::simulation::Snapshot;
@@ -259,14 +259,8 @@ impl Worker<'_> {
             retry(self.shared, || self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
         self.counted = 0;
         match delivered.map_err(Stopped::Unreachable)? {
-            super::Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
-            _ if self.claim.suspect || self.must_let_go() => {
-                if self.is_last(n) {
-                    Ok(())
-                } else {
-                    Err(Stopped::Yielded)
-                }
-            }
+            Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
+            _ if !self.is_last(n) && (self.claim.suspect || self.must_let_go()) => Err(Stopped::Yielded),
             _ => Ok(()),
         }
     }

@@ -6,6 +6,7 @@ use crate::laboratory::Laboratory;
 use adaptarm_core::scenario::{Scenario, Scheme};
 use std::path::Path;
 use std::time::{Duration, Instant};
+use tokio::task::JoinHandle;
 use tokio::time::sleep;
 use uuid::Uuid;
 
@@ -45,6 +46,12 @@ async fn end(lab: &Laboratory, owner: &str, id: Uuid) -> JobState {
     }
 }
 
+/// Sets the laboratory's engine to work; it ends after `lab.engine.stop()`.
+fn start(lab: &Laboratory) -> JoinHandle<()> {
+    let engine = lab.engine.clone();
+    tokio::spawn(async move { engine.run().await })
+}
+
 /// Whether the stored reports and samples are those of an undisturbed run.
 async fn assert_undisturbed(lab: &Laboratory, id: Uuid, scenarios: &[Scenario]) {
     for (n, scenario) in scenarios.iter().enumerate() {
@@ -60,8 +67,7 @@ async fn assert_undisturbed(lab: &Laboratory, id: Uuid, scenarios: &[Scenario]) 
 async fn long_work_takes_turns_and_gives_the_bits_of_an_undisturbed_run() {
     let folder = tempfile::tempdir().unwrap();
     let lab = open(folder.path()).await;
-    let engine = lab.engine.clone();
-    let working = tokio::spawn(async move { engine.run().await });
+    let working = start(&lab);
     let long: Vec<_> = Scheme::ALL.into_iter().map(|scheme| scenario(scheme, 1, 600.0)).collect();
     let short = [scenario(Scheme::SlotineLi, 2, 1.0)];
     let slow = submit(&lab, job("ana", &long)).await;
@@ -83,8 +89,7 @@ async fn a_stopped_engine_s_work_goes_on_from_where_it_was() {
     let long = [scenario(Scheme::Proposed, 1, 1000.0)];
     let lab = open(folder.path()).await;
     let id = submit(&lab, job("ana", &long)).await;
-    let engine = lab.engine.clone();
-    let working = tokio::spawn(async move { engine.run().await });
+    let working = start(&lab);
     sleep(Duration::from_millis(700)).await;
     lab.engine.stop();
     working.await.unwrap();
@@ -97,8 +102,7 @@ async fn a_stopped_engine_s_work_goes_on_from_where_it_was() {
     drop(lab);
 
     let lab = open(folder.path()).await;
-    let engine = lab.engine.clone();
-    let working = tokio::spawn(async move { engine.run().await });
+    let working = start(&lab);
     assert_eq!(end(&lab, "ana", id).await, JobState::Succeeded);
     assert_undisturbed(&lab, id, &long).await;
     lab.engine.stop();
@@ -109,8 +113,7 @@ async fn a_stopped_engine_s_work_goes_on_from_where_it_was() {
 async fn what_nobody_needs_is_forgotten_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let lab = open(folder.path()).await;
-    let engine = lab.engine.clone();
-    let working = tokio::spawn(async move { engine.run().await });
+    let working = start(&lab);
     let scenarios = [scenario(Scheme::SlotineLi, 1, 0.5), scenario(Scheme::SlotineLi, 2, 0.5)];
     let both = submit(&lab, job("ana", &scenarios)).await;
     end(&lab, "ana", both).await;
@@ -139,8 +142,7 @@ async fn what_nobody_needs_is_forgotten_and_nothing_else() {
 async fn a_ticket_that_was_used_is_done_with() {
     let folder = tempfile::tempdir().unwrap();
     let lab = open(folder.path()).await;
-    let engine = lab.engine.clone();
-    let working = tokio::spawn(async move { engine.run().await });
+    let working = start(&lab);
     for seed in 0..5 {
         let id = submit(&lab, job("ana", &[scenario(Scheme::SlotineLi, seed, 0.1)])).await;
         end(&lab, "ana", id).await;

@@ -10,9 +10,10 @@ export class SchemeCard extends HTMLElement {
   #toggle;
   #outcome;
   #bar;
+  #stop;
   #hash;
 
-  /** Emits `toggle` with `{shown}` and `copied` after the hash went to the clipboard. */
+  /** Emits `toggle` with `{shown}`, `stop` and `again`, and `copied` after the hash went to the clipboard. */
   configure(scheme, shown) {
     this.dataset.scheme = scheme.id;
     this.dataset.outcome = "waiting";
@@ -25,11 +26,18 @@ export class SchemeCard extends HTMLElement {
     this.#toggle.checked = shown;
     this.#outcome = element("p", { class: "outcome" }, strings.waiting);
     this.#bar = element("progress", { max: 1, value: 0, hidden: true, "aria-label": scheme.name });
+    this.#stop = element("button", {
+      type: "button",
+      class: "quiet stop",
+      hidden: true,
+      onclick: () => this.dispatchEvent(new Event(this.dataset.outcome === "running" ? "stop" : "again")),
+    });
     this.#hash = element("button", { type: "button", class: "hash", hidden: true, onclick: () => this.#copy() });
     this.replaceChildren(
       element("label", { class: "scheme-name" }, this.#toggle, swatch(scheme), element("span", {}, scheme.name)),
       this.#outcome,
       this.#bar,
+      this.#stop,
       this.#hash,
     );
   }
@@ -38,19 +46,29 @@ export class SchemeCard extends HTMLElement {
   set progress(progress) {
     this.dataset.outcome = "running";
     this.#outcome.textContent = strings.running(Math.floor(100 * progress));
+    // The old run's hash is not this one's.
+    this.#hash.hidden = true;
     this.#bar.hidden = false;
     this.#bar.value = progress;
+    this.#offer(strings.stop);
   }
 
-  /** How the latest run ended: `{report, elapsed_ms}` or `{failure}`. */
-  set result({ report, elapsed_ms, failure }) {
+  /** Shows the button that stops or starts again; hides it without a text. */
+  #offer(text) {
+    this.#stop.hidden = !text;
+    this.#stop.textContent = text ?? "";
+  }
+
+  /** How the latest run ended: `{report, elapsed_ms}`, `{stoppedAt}` or `{failure}`. */
+  set result({ report, elapsed_ms, stoppedAt, failure }) {
     this.#bar.hidden = true;
-    this.dataset.outcome = report?.outcome ?? "failed";
+    this.#offer(report ? null : strings.runAgain);
+    this.dataset.outcome = report?.outcome ?? (failure ? "failed" : "stopped");
     this.dataset.scenarioHash = report?.scenario_hash ?? "";
     this.dataset.trajectoryHash = report?.trajectory_hash ?? "";
     this.#hash.hidden = !report;
     if (!report) {
-      this.#outcome.textContent = strings.failed(failure);
+      this.#outcome.textContent = failure ? strings.failed(failure) : strings.stoppedAt(Math.floor(100 * stoppedAt));
       return;
     }
     this.#outcome.textContent =

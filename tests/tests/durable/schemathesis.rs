@@ -13,7 +13,7 @@ pub fn conformance() -> Result<()> {
     let python = machine::python().context("ADAPTARM_PYTHON names no interpreter")?;
     let folder = tempfile::tempdir()?;
     let report = folder.path().join("report.json");
-    let examples = if machine::soak() { "600" } else { "8" };
+    let examples = if machine::soak() { "400" } else { "8" };
     let mut command = Command::new(python);
     command
         .args(["-m", "schemathesis.cli", "--config-file", CONFIG, "run"])

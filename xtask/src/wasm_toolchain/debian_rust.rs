@@ -7,7 +7,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{TARGET, sysroot};
+use super::{RUSTFLAGS, TARGET, sysroot};
 use crate::tools;
 use crate::workspace::Workspace;
 
@@ -55,6 +55,7 @@ impl DebianRust {
             .current_dir(&workspace.root)
             .env("CARGO_TARGET_DIR", target(workspace))
             .env("RUSTC", RUSTC)
+            .env("CARGO_ENCODED_RUSTFLAGS", RUSTFLAGS)
             // `-Z` on a release compiler: the one unstable thing we ask for is to compile the standard library.
             .env("RUSTC_BOOTSTRAP", "1")
             .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", &self.linker)

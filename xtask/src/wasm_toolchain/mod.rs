@@ -19,6 +19,10 @@ use debian_rust::DebianRust;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
+/// Two numbers per instruction (docs/decisions/0010-simd128.md). Takes the place of all flags from elsewhere: those chosen
+/// for this host's processor do not compile for the browser.
+const RUSTFLAGS: &str = "-Ctarget-feature=+simd128";
+
 /// The component is some 25 MB; a network that drops packets instead of refusing would hold us here for ever.
 const RUSTUP_LIMIT: Duration = Duration::from_mins(3);
 
@@ -36,7 +40,7 @@ impl WasmToolchain {
         match self {
             Self::Installed => {
                 let mut command = workspace.cargo();
-                command.args(["build", "--locked", "--target", TARGET]);
+                command.env("CARGO_ENCODED_RUSTFLAGS", RUSTFLAGS).args(["build", "--locked", "--target", TARGET]);
                 (command, workspace.target.join(TARGET))
             }
             Self::Debian(rust) => (rust.build(workspace), debian_rust::target(workspace).join(TARGET)),

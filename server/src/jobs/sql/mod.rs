@@ -1,7 +1,8 @@
 //! Jobs in tables, of SQLite on one machine or of PostgreSQL for many.
 //!
 //! The statements are the same: `queries/` is compiled once for each database, with what differs taken from `sqlite.rs`
-//! or `postgres.rs`. Every transaction touches the job's row before its shards, so none can wait for another in a circle.
+//! or `postgres.rs`. What changes a job and its shards touches the job's row first, so that two such
+//! transactions cannot wait for each other.
 
 mod postgres;
 mod rows;

@@ -5,6 +5,7 @@ mod identity;
 mod input;
 mod keyboard;
 mod latency;
+mod long_runs;
 mod pinned;
 mod resilience;
 mod sliders;
@@ -32,6 +33,11 @@ pub const ALL: &[(&str, Case)] = &[
     ("every_colour_of_text_has_enough_contrast", appearance::every_colour_of_text_has_enough_contrast),
     ("screenshots", appearance::screenshots),
     ("a_slider_move_is_drawn_in_time", latency::a_slider_move_is_drawn_in_time),
+    (
+        "a_long_run_is_drawn_while_it_computes_and_can_be_stopped",
+        long_runs::a_long_run_is_drawn_while_it_computes_and_can_be_stopped,
+    ),
+    ("a_stopped_run_can_be_started_again", long_runs::a_stopped_run_can_be_started_again),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
