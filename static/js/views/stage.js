@@ -121,7 +121,9 @@ export function buildStage(place, app) {
   view.configure(app, wanted);
   timeline.addEventListener("time", () => view.redraw());
   timeline.addEventListener("playing", () => view.redraw());
-  laboratory.addEventListener("result", () => figures.redraw(() => view.redrawRuns()));
+  for (const type of ["progress", "result"]) {
+    laboratory.addEventListener(type, () => figures.redraw(() => view.redrawRuns()));
+  }
   laboratory.addEventListener("shown", arrange);
   onTheme(() => view.redraw());
   arrange();

@@ -216,7 +216,8 @@ impl Scene {
         self.prepare_solids(cell, &frames(&pose.desired, pose.q_d[0]), [0.0; 3], Shown::Ghost, 0.0);
         self.solid.vectors(gl, "u_ink", &[color(cell.theme.ink())]);
         gl.enable(Gl::POLYGON_OFFSET_FILL);
-        gl.polygon_offset(1.0, 8.0);
+        // About half a centimetre, so that surfaces in almost one place do not show through one another in specks.
+        gl.polygon_offset(1.0, 1200.0);
         gl.depth_mask(true);
         gl.color_mask(false, false, false, false);
         self.body.draw_moving(gl);

@@ -1,6 +1,7 @@
 //! The cases, by name.
 
 mod appearance;
+mod arm;
 mod identity;
 mod input;
 mod keyboard;
@@ -41,4 +42,10 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
+    ("three_arms_are_drawn_side_by_side", arm::three_arms_are_drawn_side_by_side),
+    ("the_arm_plays_and_is_scrubbed_by_keyboard", arm::the_arm_plays_and_is_scrubbed_by_keyboard),
+    ("the_view_of_the_arm_turns_and_zooms_within_limits", arm::the_view_turns_and_zooms_within_limits),
+    ("without_webgl_the_arm_is_drawn_flat", arm::without_webgl_the_arm_is_drawn_flat),
+    ("a_lost_graphics_context_comes_back_or_is_explained", arm::a_lost_context_comes_back_or_is_explained),
+    ("the_arm_takes_little_of_the_main_thread", arm::the_arm_takes_little_of_the_main_thread),
 ];
