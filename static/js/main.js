@@ -166,9 +166,10 @@ function buildCards(app) {
 }
 
 /** Shows the visible schemes, in the core's order. */
-function showSchemes({ description, state, figures }) {
+function showSchemes({ description, state, figures, laboratory }) {
   figures.shown = description.schemes.map(({ id }) => id).filter((id) => state.visible.has(id));
   figures.redraw();
+  laboratory.dispatchEvent(new Event("shown"));
 }
 
 /** Colours come from the core, so that page and figures cannot disagree. */

@@ -4,6 +4,7 @@
 //! shown, `draw_figure` draws it on the main thread, `read_figure` gives it in numbers, `export_svg` to keep. No physics and
 //! no page here: the page's behaviour is in `static/js`.
 
+mod arm;
 #[cfg(target_arch = "wasm32")]
 mod canvas;
 mod claims;
@@ -15,6 +16,7 @@ mod run;
 mod runs;
 mod view;
 
+pub use arm::{arm_paths, arm_pose};
 pub use claims::claims;
 pub use describe::describe;
 pub use feedback::sliding_rms;

@@ -21,6 +21,8 @@ pub(crate) struct ShownRun {
     pub theta: Vec<f64>,
     /// Its torques, split; computed when first asked for.
     parts: OnceCell<TorqueParts>,
+    /// Differs from that of every other run that was ever added: what is made from a run is current while this is.
+    pub revision: u64,
 }
 
 impl ShownRun {
@@ -35,6 +37,7 @@ impl ShownRun {
 #[derive(Default)]
 pub struct Runs {
     runs: BTreeMap<String, ShownRun>,
+    added: u64,
 }
 
 #[wasm_bindgen]
@@ -77,8 +80,9 @@ impl Runs {
         let columns = Columns { joints: robot.joint_count(), parameters: robot.parameter_count() };
         let recording = Recording::from_rows(columns, rows)
             .ok_or_else(|| Failure::new("the samples end in the middle of a row".to_owned()))?;
-        let theta = scenario.theta();
-        let run = ShownRun { scenario, recording, completed, theta, parts: OnceCell::new() };
+        self.added += 1;
+        let (theta, revision) = (scenario.theta(), self.added);
+        let run = ShownRun { scenario, recording, completed, theta, parts: OnceCell::new(), revision };
         self.runs.insert(id.to_owned(), run);
         Ok(())
     }

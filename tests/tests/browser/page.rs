@@ -20,6 +20,15 @@ pub enum Screen {
     Phone,
 }
 
+/// What the browser has for 3-D graphics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Graphics {
+    /// No WebGL: quiet, and nothing competes for the processor.
+    Off,
+    /// WebGL, drawn by the processor.
+    Software,
+}
+
 /// An open page.
 #[derive(Debug)]
 pub struct Page<'a> {
@@ -49,7 +58,12 @@ impl WebDriverCompatibleCommand for Command {
 impl<'a> Page<'a> {
     /// Opens a browser and the page in it, and waits until its first results are drawn.
     pub fn open(bench: &'a Bench, screen: Screen) -> Result<Self> {
-        let page = Self::blank(bench, screen)?;
+        Self::open_with(bench, screen, Graphics::Off)
+    }
+
+    /// The same with 3-D graphics, or without.
+    pub fn open_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
+        let page = Self::blank_with(bench, screen, graphics)?;
         page.visit()?;
         page.ready()?;
         Ok(page)
@@ -57,9 +71,13 @@ impl<'a> Page<'a> {
 
     /// Opens a browser with nothing in it.
     pub fn blank(bench: &'a Bench, screen: Screen) -> Result<Self> {
+        Self::blank_with(bench, screen, Graphics::Off)
+    }
+
+    fn blank_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
         let profile = tempfile::tempdir()?;
         let mut builder = ClientBuilder::new(HttpConnector::new());
-        builder.capabilities(capabilities(&profile, screen));
+        builder.capabilities(capabilities(&profile, screen, graphics));
         let client = bench.runtime.block_on(builder.connect(&bench.driver.url)).context("cannot open a browser")?;
         Ok(Self { bench, client, _profile: profile })
     }
@@ -191,7 +209,7 @@ impl Drop for Page<'_> {
     }
 }
 
-fn capabilities(profile: &TempDir, screen: Screen) -> Capabilities {
+fn capabilities(profile: &TempDir, screen: Screen, graphics: Graphics) -> Capabilities {
     let mut arguments: Vec<String> = [
         "--headless",
         "--no-sandbox",
@@ -206,6 +224,11 @@ fn capabilities(profile: &TempDir, screen: Screen) -> Capabilities {
     ]
     .map(str::to_owned)
     .into();
+    let graphics = match graphics {
+        Graphics::Off => "--disable-3d-apis",
+        Graphics::Software => "--enable-unsafe-swiftshader",
+    };
+    arguments.push(graphics.to_owned());
     arguments.push(format!("--user-data-dir={}", profile.path().display()));
     let mut options = json!({ "args": arguments });
     if screen == Screen::Phone {

@@ -1,3 +1,40 @@
-// Textos: por traducir; hasta entonces, en inglés.
+// Textos: el brazo y su reproducción.
 
-export const stage = {};
+export const stage = {
+  title: "El brazo",
+  mode: "Brazos que se muestran",
+  one: "Un brazo",
+  race: "Lado a lado",
+  scheme: "Esquema",
+  errors: "Errores dibujados",
+  errorTimes: (times) => (times === 1 ? "como son" : `× ${times}`),
+  zoomIn: "Acercar",
+  zoomOut: "Alejar",
+  resetView: "Restablecer la vista",
+  legend: "Sólido: el brazo. Transparente: donde debería estar. Líneas: el camino de su punta.",
+  hint: "Arrastrar o las flechas giran la vista, Ctrl y rueda o + y − la acercan, 0 la restablece, espacio reproduce.",
+  kind: "vista en 3D",
+  kindFlat: "dibujo",
+  nothing: "No se muestra ningún esquema: elija uno arriba.",
+  waiting: "aún sin muestras",
+  tipOff: (millimetres) => `punta a ${millimetres} mm`,
+  beyondLimits: "fuera de los límites articulares",
+  nowhere: (scheme) => `${scheme}: sin muestras.`,
+  where: (scheme, x, y, z, millimetres) =>
+    `${scheme}: punta en x ${x}, y ${y}, z ${z} m, a ${millimetres} mm de donde debería estar.`,
+  atTime: (seconds, arms) => `A los ${seconds} s. ${arms}`,
+  side: "de lado",
+  top: "desde arriba",
+  flat: (reason) => `Dibujo plano, porque la vista en 3D no está disponible: ${reason}.`,
+  lost: "Los gráficos se interrumpieron; la imagen volverá en cuanto vuelvan ellos.",
+  notRestored: "los gráficos se interrumpieron y no volvieron",
+
+  transport: "Reproducción",
+  play: "Reproducir",
+  pause: "Pausar",
+  position: "Tiempo",
+  ofTime: (now, end) => `${now} s de ${end} s`,
+  clock: (now, end) => `${now} / ${end} s`,
+  speed: "Velocidad",
+  times: (factor) => `${factor} ×`,
+};

@@ -8,6 +8,7 @@ mod compare;
 mod explain;
 mod gains_said;
 pub mod benchmark;
+mod arm;
 mod identity;
 mod input;
 mod jobs;
@@ -130,4 +131,10 @@ pub const ALL: &[(&str, Case)] = &[
     ),
     ("the_main_page_looks_as_approved", look::the_main_page_looks_as_approved),
     ("a_change_of_looks_would_be_seen", look::a_change_of_looks_would_be_seen),
+    ("three_arms_are_drawn_side_by_side", arm::three_arms_are_drawn_side_by_side),
+    ("the_arm_plays_and_is_scrubbed_by_keyboard", arm::the_arm_plays_and_is_scrubbed_by_keyboard),
+    ("the_view_of_the_arm_turns_and_zooms_within_limits", arm::the_view_turns_and_zooms_within_limits),
+    ("without_webgl_the_arm_is_drawn_flat", arm::without_webgl_the_arm_is_drawn_flat),
+    ("a_lost_graphics_context_comes_back_or_is_explained", arm::a_lost_context_comes_back_or_is_explained),
+    ("the_arm_takes_little_of_the_main_thread", arm::the_arm_takes_little_of_the_main_thread),
 ];
