@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use crate::native::{edited, expect_study, field_value, gain_field, report, shown_hash, slide};
 use crate::page::{Page, Screen};
-use crate::pictures::{save, settle};
+use crate::pictures::{canvas, save, settle};
 use adaptarm_core::scenario::Scheme;
 use anyhow::{Context, Result, ensure};
 use fantoccini::key::Key;
@@ -262,5 +262,28 @@ pub fn a_slider_does_not_wait_for_pins(bench: &Bench) -> Result<()> {
         "the pin is {}",
         text(&page, ".pin-standing")?
     );
+    Ok(())
+}
+
+pub fn a_pinned_run_is_drawn_beside_the_new_one(bench: &Bench) -> Result<()> {
+    const FIGURE: &str = "tracking_errors";
+    let page = Page::open(bench, Screen::Desktop)?;
+    page.click("#pin-runs")?;
+    pins_ready(&page)?;
+    slide(&page, &gain_field(Scheme::Proposed, GAIN), -60)?;
+    page.run("document.querySelector('[data-figure=tracking_errors]').scrollIntoView({ behavior: 'instant' })", &[])?;
+    settle(&page)?;
+    save(&page, "overlay")?;
+    let both = canvas(&page, FIGURE)?;
+    page.click(".pin-toggle input")?;
+    settle(&page)?;
+    let alone = canvas(&page, FIGURE)?;
+    ensure!(both != alone, "a pinned run is not drawn");
+    page.click(".pin-toggle input")?;
+    settle(&page)?;
+    ensure!(canvas(&page, FIGURE)? == both, "a pinned run that is shown again is drawn otherwise");
+    page.click(".pin-remove")?;
+    settle(&page)?;
+    ensure!(canvas(&page, FIGURE)? == alone, "a removed pin is still drawn");
     Ok(())
 }

@@ -85,6 +85,7 @@ pub const ALL: &[(&str, Case)] = &[
     ("the_history_survives_a_reload", compare::the_history_survives_a_reload),
     ("pinned_runs_are_compared_kept_and_computed_again", compare::pinned_runs_are_compared_and_kept),
     ("a_pin_with_other_bits_says_so_and_there_is_no_seventh", compare::other_bits_and_a_seventh_pin_are_said),
+    ("a_pinned_run_is_drawn_beside_the_new_one", compare::a_pinned_run_is_drawn_beside_the_new_one),
     ("a_slider_does_not_wait_for_pins", compare::a_slider_does_not_wait_for_pins),
     ("a_link_opens_the_same_bits_in_a_fresh_profile", links::a_link_opens_the_same_bits_in_a_fresh_profile),
     ("back_and_reload_keep_their_settings", links::back_and_reload_keep_their_settings),
