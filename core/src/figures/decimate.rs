@@ -156,7 +156,9 @@ mod tests {
     fn thin(points: &[Point], tolerance: f64) -> Vec<Point> {
         let mut kept = Vec::new();
         let mut thinner = Thinner::rising(&mut kept, tolerance);
-        points.iter().for_each(|point| thinner.push(*point));
+        for point in points {
+            thinner.push(*point);
+        }
         thinner.finish();
         kept
     }
@@ -215,7 +217,9 @@ mod tests {
     fn thin_turning(points: &[Point]) -> Vec<Point> {
         let mut kept = Vec::new();
         let mut thinner = Thinner::turning(&mut kept, 0.1);
-        points.iter().for_each(|point| thinner.push(*point));
+        for point in points {
+            thinner.push(*point);
+        }
         thinner.finish();
         kept
     }
