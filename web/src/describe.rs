@@ -1,7 +1,8 @@
 //! What exists, as one JSON document for building the page: robots, schemes with their gains, studies, limits, figures.
 
+use adaptarm_core::decomposition::TorquePart;
 use adaptarm_core::experiments::replication::{OBSERVER_PEAKS_DEG, TABLE_1_DEG, TABLE_2_DEG_S};
-use adaptarm_core::figures::{Figure, Rgb, Theme, scheme_style};
+use adaptarm_core::figures::{Figure, Rgb, Theme, scheme_style, torque_style};
 use adaptarm_core::metrics::{SETTLING_BAND_DEG, SETTLING_BAND_DEG_S};
 use adaptarm_core::robots::{ROBOTS, RobotData};
 use adaptarm_core::scenario::{GainSet, LIMITS, PRESETS, Preset, Scenario, ScenarioDocument, Scheme, SchemeDocument};
@@ -53,6 +54,7 @@ fn description() -> Description {
             "natural_size": figure.natural_size(),
             "has_symlog": figure.has_symlog(),
         })),
+        "torque_lines": TorquePart::ALL.map(Some).into_iter().chain([None]).map(describe_torque).collect::<Vec<_>>(),
         "plot_background": { "light": hex(Theme::Light.background()), "dark": hex(Theme::Dark.background()) },
     });
     Description { studies: studies(), rest }
@@ -99,6 +101,17 @@ fn describe_scheme(scheme: Scheme) -> Value {
         "id": scheme.id(),
         "name": scheme.name(),
         "gains": gains,
+        "color": { "light": hex(light), "dark": hex(dark) },
+        "dash": dash.0,
+    })
+}
+
+/// How a part of a torque is drawn, or the sum of the parts.
+fn describe_torque(part: Option<TorquePart>) -> Value {
+    let (light, dash) = torque_style(part, Theme::Light);
+    let (dark, _) = torque_style(part, Theme::Dark);
+    json!({
+        "id": part.map_or("total", TorquePart::id),
         "color": { "light": hex(light), "dark": hex(dark) },
         "dash": dash.0,
     })

@@ -26,7 +26,7 @@ pub use panels::Key;
 pub use path::Path;
 pub use readout::{PanelReading, Reading, Value, read};
 pub use run::PlottedRun;
-pub use style::{Dash, Rgb, Style, Theme, scheme_style};
+pub use style::{Dash, Rgb, Style, Theme, scheme_style, torque_style};
 pub use surface::{DrawError, Stroke, Surface};
 pub use svg::svg;
 pub use view::{AxisKind, Texts, View};

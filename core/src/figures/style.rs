@@ -1,7 +1,7 @@
 //! Colours, dashes and sizes. Lines differ in colour and in dash, so that no figure depends on colour alone, and every one
 //! has a contrast of at least 3:1 to its background.
 
-use crate::decomposition::PARTS;
+use crate::decomposition::{PARTS, TorquePart};
 use crate::scenario::Scheme;
 
 /// An sRGB colour.
@@ -139,6 +139,15 @@ pub(super) const fn part_line(part: usize, theme: Theme) -> Line {
 /// Line of the whole torque behind its parts.
 pub(super) const fn total_line(theme: Theme) -> Line {
     Line { color: theme.truth(), dash: Dash(None), width: 2.6 }
+}
+
+/// Colour and dash of a part of a torque, or of the whole torque behind its parts.
+pub const fn torque_style(part: Option<TorquePart>, theme: Theme) -> (Rgb, Dash) {
+    let line = match part {
+        Some(part) => part_line(part as usize, theme),
+        None => total_line(theme),
+    };
+    (line.color, line.dash)
 }
 
 /// A lighter shade of a colour (a darker one on a dark page) that still has a contrast of at least 3:1.

@@ -17,7 +17,7 @@ use adaptarm_core::scenario::Report;
 use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
 use futures_util::{Stream, stream};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -95,6 +95,29 @@ fn reports(state: AppState, id: Uuid, ended: JobState, count: i64) -> impl Strea
     })
 }
 
+/// One scenario of a job as it runs: checked, with everything filled in.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/scenarios/{n}", operation_id = "scenario", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        ("n" = u32, Path, description = "Number of the scenario; the first is 0.", example = 0),
+    ),
+    responses((status = 200, description = "The scenario's document.", body = crate::openapi::Scenario)),
+)]
+pub(super) async fn scenario(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name((id, n)): Name<(String, String)>,
+) -> Result<impl IntoResponse, Problem> {
+    let job = find(&state, owner.as_str(), &id).await?;
+    let unknown = || Problem::not_found("scenario in this job called", &n);
+    let number = n.parse().map_err(|_| unknown())?;
+    let (_, document) = state.store.scenario(job.id, number).await.map_err(database)?.ok_or_else(unknown)?;
+    Ok(([(header::CONTENT_TYPE, "application/json")], document))
+}
+
 /// The samples of one scenario, also while others are still computed.
 ///
 /// Needs the scope `jobs:read`.
@@ -131,7 +154,7 @@ pub(super) async fn series(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
-    let (row, report) = find_report(&state, &job, query.scenario).await?;
+    let (row, _, report) = find_report(&state, &job, query.scenario).await?;
     let request = SeriesRequest::new(&query, &report)?;
     if let Some(response) = request.not_modified(&headers) {
         return Ok(response);
@@ -149,7 +172,7 @@ pub(super) struct FigureQuery {
     scenario: usize,
 }
 
-/// A figure of one scenario, as drawn for the published study.
+/// A figure of one scenario: those of the published study, and more.
 ///
 /// Needs the scope `jobs:read`.
 #[utoipa::path(
@@ -183,19 +206,19 @@ pub(super) async fn figure(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
-    let (row, report) = find_report(&state, &job, query.scenario).await?;
+    let (row, document, report) = find_report(&state, &job, query.scenario).await?;
     let request = FigureRequest::new(&name, &report)?;
     if let Some(response) = request.not_modified(&headers) {
         return Ok(response);
     }
-    request.respond(report, samples(&state, &row).await?, &headers).await
+    request.respond(report, document, samples(&state, &row).await?, &headers).await
 }
 
-/// The report on one scenario of a job.
-async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioRow, Report), Problem> {
+/// One scenario of a job with its document and the report on it.
+async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioRow, String, Report), Problem> {
     let number = i64::try_from(n).unwrap_or(i64::MAX);
     let found = state.store.scenario(job.id, number).await.map_err(database)?;
-    let (row, _) = found.ok_or_else(|| Problem::not_found("scenario in this job called", &n.to_string()))?;
+    let (row, document) = found.ok_or_else(|| Problem::not_found("scenario in this job called", &n.to_string()))?;
     let Some(report) = &row.report else {
         if row.core_version.is_none() {
             return Err(not_ready(job, "this scenario's samples"));
@@ -204,7 +227,7 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
         return Err(Problem::new(StatusCode::GONE, "/problems/gone", "No longer kept", detail));
     };
     let report = serde_json::from_str(report).map_err(super::internal)?;
-    Ok((row, report))
+    Ok((row, document, report))
 }
 
 /// The samples of one scenario that has a report.

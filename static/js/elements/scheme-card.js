@@ -44,6 +44,11 @@ export class SchemeCard extends HTMLElement {
     );
   }
 
+  /** Whether its curves are shown. */
+  set shown(shown) {
+    this.#toggle.checked = shown;
+  }
+
   /** A run under way: only worth a bar when it takes its time. */
   set progress(progress) {
     this.dataset.outcome = "running";

@@ -6,7 +6,6 @@
 import { element } from "../dom.js";
 import { load, save } from "../storage.js";
 import { strings } from "../strings/index.js";
-import { FIGURES } from "./figures.js";
 
 const KEY = "pinned";
 /** Small letters for a small figure. */
@@ -15,13 +14,13 @@ const ZOOM = 0.85;
 /** Builds the panel. */
 export function buildPinned(panel, figures) {
   const saved = load(KEY);
-  const first = FIGURES.includes(saved?.figure) ? saved.figure : FIGURES[0];
+  const first = figures.ids.includes(saved?.figure) ? saved.figure : figures.ids[0];
   const card = figures.add(first, ZOOM);
   card.id = "pinned-card";
   const choice = element(
     "select",
     { id: "pinned-choice" },
-    FIGURES.map((id) => element("option", { value: id }, strings.figure[id])),
+    figures.ids.map((id) => element("option", { value: id }, strings.figures.titles[id])),
   );
   choice.value = first;
   choice.addEventListener("change", () => {
@@ -33,13 +32,13 @@ export function buildPinned(panel, figures) {
   function open(shown) {
     card.hidden = !shown;
     panel.toggleAttribute("data-open", shown);
-    toggle.textContent = shown ? strings.pinnedHide : strings.pinnedShow;
+    toggle.textContent = shown ? strings.figures.pinnedHide : strings.figures.pinnedShow;
     toggle.setAttribute("aria-expanded", String(shown));
     save(KEY, { figure: choice.value, open: shown });
   }
 
   panel.append(
-    element("div", { class: "pinned-head" }, element("label", { for: choice.id }, strings.pinnedFigure), choice, toggle),
+    element("div", { class: "pinned-head" }, element("label", { for: choice.id }, strings.figures.pinnedFigure), choice, toggle),
     card,
   );
   open(saved?.open !== false);

@@ -1,0 +1,138 @@
+//! What a figure's export menu saves: a picture of the screen's pixels, a drawing, every sample of each run.
+
+use crate::bench::Bench;
+use crate::page::{Page, Screen};
+use adaptarm_core::scenario::{Scenario, Scheme};
+use anyhow::{Context, Result, ensure};
+use fantoccini::key::Key;
+use serde_json::{Value, json};
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const PATIENCE: Duration = Duration::from_secs(20);
+
+pub fn a_figure_is_saved_as_shown(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let folder = accept_downloads(&page)?;
+    let menu = "#figures [data-figure=tracking_errors] .figure-export";
+    let save = |label: &str| -> Result<()> {
+        page.click(&format!("{menu} > button"))?;
+        page.click(&format!("{menu} [aria-label=\"{label}\"]"))
+    };
+    save("Joint tracking errors as PNG")?;
+    let png = saved(&folder, "adaptarm-tracking-errors-light.png")?;
+    let size = page.run(
+        "const { width, height } = document.querySelector('#figures [data-figure=tracking_errors] canvas'); \
+         return [width, height]",
+        &[],
+    )?;
+    let number = |at: usize| -> Result<u32> { Ok(u32::from_be_bytes(png[at..at + 4].try_into()?)) };
+    ensure!(png.starts_with(b"\x89PNG") && json!([number(16)?, number(20)?]) == size, "the PNG is not {size} pixels");
+
+    save("Joint tracking errors as SVG")?;
+    let svg = String::from_utf8(saved(&folder, "adaptarm-tracking-errors-light.svg")?)?;
+    let seen = drawing(&page, &svg)?;
+    ensure!(seen["root"] == "svg" && seen["curves"].as_u64() >= Some(9), "the drawing holds {seen}");
+    ensure!(seen["text"].as_str().is_some_and(|text| text.contains("Slotine and Li")), "the drawing says {seen}");
+
+    for scheme in Scheme::ALL {
+        save(&format!("{} as CSV", scheme.name()))?;
+        let name = format!("adaptarm-{}-samples.csv", scheme.name().to_lowercase().replace(' ', "-"));
+        let csv = String::from_utf8(saved(&folder, &name)?)?;
+        let expected = Scenario::new(scheme.paper())?.run().recording.to_csv();
+        ensure!(csv == expected, "{name} is not what the core writes: {}", csv.lines().next().unwrap_or_default());
+    }
+
+    // What is saved is what is shown: dark, zoomed and with one scheme less.
+    page.click("#theme-toggle")?;
+    page.click("scheme-card[data-scheme=slotine_li] input")?;
+    page.run("document.querySelector('#figures [data-figure=tracking_errors] .figure-overlay').focus()", &[])?;
+    page.press("+")?;
+    page.ready()?;
+    save("Joint tracking errors as SVG")?;
+    let svg = String::from_utf8(saved(&folder, "adaptarm-tracking-errors-0.000s-to-8.000s-dark.svg")?)?;
+    let text = drawing(&page, &svg)?["text"].as_str().unwrap_or_default().to_owned();
+    ensure!(text.contains("Tang") && !text.contains("Slotine"), "the drawing does not show what the page does: {text}");
+    Ok(())
+}
+
+pub fn the_paper_s_figures_of_estimates_are_saved(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let folder = accept_downloads(&page)?;
+    let menu = "#figures [data-figure=estimates] .figure-export";
+    for (n, range) in ["θ1 to θ6", "θ7 to θ12", "θ13 to θ18"].iter().enumerate() {
+        for kind in ["PNG", "SVG"] {
+            page.click(&format!("{menu} > button"))?;
+            page.click(&format!("{menu} [aria-label=\"Estimates {range} as {kind}\"]"))?;
+        }
+        let svg = String::from_utf8(saved(&folder, &format!("adaptarm-estimates-{}-light.svg", n + 1))?)?;
+        let seen = drawing(&page, &svg)?;
+        ensure!(
+            seen["text"].as_str().is_some_and(|text| text.contains("true value")),
+            "{range}: the drawing says {seen}"
+        );
+        let png = saved(&folder, &format!("adaptarm-estimates-{}-light.png", n + 1))?;
+        ensure!(png.len() > 10_000, "{range}: the picture is nearly empty");
+    }
+    Ok(())
+}
+
+pub fn the_menu_opens_and_closes_by_keyboard(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let menu = "#figures [data-figure=torques] .figure-export";
+    let state = || {
+        page.run(
+            "const wrap = document.querySelector(arguments[0]); const [button, menu] = wrap.children; \
+             return [button.ariaExpanded, menu.getClientRects().length, document.activeElement === button, \
+                menu.contains(document.activeElement)]",
+            &[json!(menu)],
+        )
+    };
+    let press = |key: Key| page.press(&char::from(key).to_string());
+    page.run("document.querySelector(arguments[0] + ' > button').focus()", &[json!(menu)])?;
+    press(Key::Enter)?;
+    ensure!(state()? == json!(["true", 1, false, true]), "the enter key opens {}", state()?);
+    press(Key::Escape)?;
+    ensure!(state()? == json!(["false", 0, true, false]), "escape leaves {}", state()?);
+    press(Key::Space)?;
+    ensure!(state()?[0] == "true", "the space bar opens nothing");
+    let outside = json!({ "type": "mousePressed", "x": 700, "y": 5, "button": "left", "buttons": 1, "clickCount": 1 });
+    page.devtools("Input.dispatchMouseEvent", &outside)?;
+    ensure!(state()?[0] == "false", "a click elsewhere does not close the menu");
+    Ok(())
+}
+
+/// Makes the browser save what it downloads, without asking, into a folder of its own.
+fn accept_downloads(page: &Page<'_>) -> Result<TempDir> {
+    let folder = tempfile::tempdir()?;
+    let behaviour = json!({ "behavior": "allow", "downloadPath": folder.path() });
+    page.devtools("Browser.setDownloadBehavior", &behaviour)?;
+    Ok(folder)
+}
+
+/// The bytes of a file once it is wholly there.
+fn saved(folder: &TempDir, name: &str) -> Result<Vec<u8>> {
+    let path = folder.path().join(name);
+    let start = Instant::now();
+    while !path.exists() {
+        ensure!(start.elapsed() < PATIENCE, "{name} was not saved; there are {:?}", names(folder.path())?);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    std::fs::read(&path).with_context(|| format!("cannot read {name}"))
+}
+
+fn names(folder: &Path) -> Result<Vec<String>> {
+    let entries = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+    entries.collect()
+}
+
+/// What the browser's own parser finds in a drawing.
+fn drawing(page: &Page<'_>, svg: &str) -> Result<Value> {
+    page.run(
+        "const document = new DOMParser().parseFromString(arguments[0], 'image/svg+xml'); \
+         return { root: document.documentElement.tagName, text: document.documentElement.textContent.replace(/\\s+/g, ' '), \
+            curves: document.querySelectorAll('polyline, path').length }",
+        &[json!(svg)],
+    )
+}
