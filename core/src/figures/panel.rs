@@ -138,9 +138,10 @@ fn draw_axes<S: Surface>(
 ) -> Result<(), DrawError> {
     let (ink, grid) = (pen.style.theme.ink(), pen.style.theme.grid());
     let room = |length: f64, each: f64, most: usize| ((length / pen.style.scale / each) as usize).clamp(2, most);
-    let each = if is_narrow(pen, cell) { 36.0 } else { 64.0 };
-    let x_ticks = ticks(x, room(frame.right - frame.left, each, 8), pen.style.scale);
-    let y_ticks = ticks(y, room(frame.bottom - frame.top, 17.0, 6), pen.style.scale);
+    // Where panels are narrow, fewer ticks have shorter texts.
+    let (across, up) = if is_narrow(pen, cell) { (36.0, 26.0) } else { (64.0, 17.0) };
+    let x_ticks = ticks(x, room(frame.right - frame.left, across, 8), pen.style.scale);
+    let y_ticks = ticks(y, room(frame.bottom - frame.top, up, 6), pen.style.scale);
     let tick = pen.px(4.0);
     for (value, text) in &y_ticks {
         let at = y.pixel(*value);
