@@ -24,6 +24,7 @@ pub mod scalar;
 pub mod scenario;
 pub mod simulation;
 pub mod trajectories;
+mod transcendental;
 mod unroll;
 pub mod velocity;
 

@@ -1,9 +1,11 @@
 //! The one place where numbers become arithmetic: the scalar that all of the physics is generic over.
 //!
 //! Every transcendental function goes through here, so that native code and WASM execute the same operations and return
-//! the same bits. `f64` uses libm, which is plain IEEE arithmetic; square root is exact everywhere and uses the hardware.
+//! the same bits. Those of the closed loop are in [`crate::transcendental`]; the rest is libm, plain IEEE arithmetic too.
+//! Square root is exact everywhere and uses the hardware.
 //! A SIMD type takes part by implementing [`Scalar`]: comparisons give masks, and branches on data are [`Scalar::select`].
 
+use crate::transcendental::{self, SIN_COS_LIMIT, TANH_LIMIT};
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 use std::ops::Neg;
@@ -37,6 +39,10 @@ pub trait Scalar:
     fn less_than(self, other: Self) -> Self::Mask;
     /// Whether the mask holds anywhere.
     fn any(mask: Self::Mask) -> bool;
+    /// Of a whole number n: whether it is odd, whether the sine changes sign after n quarter turns, whether the cosine does.
+    fn quadrant(self) -> (Self::Mask, Self::Mask, Self::Mask);
+    /// `2ⁿ` of a whole number n from −1022 to 1023.
+    fn power_of_two(self) -> Self;
     /// `if_true` where the mask holds, `if_false` elsewhere.
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
 
@@ -57,11 +63,13 @@ impl Scalar for f64 {
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        libm::sincos(self)
+        // Only an arm that spins out of control gets here; its numbers should still be those of its angles.
+        if SIN_COS_LIMIT < self.abs() { libm::sincos(self) } else { transcendental::sin_cos(self) }
     }
     #[inline]
     fn tanh(self) -> Self {
-        libm::tanh(self)
+        // The same bits as the whole computation gives; dry friction is there most of the time.
+        if TANH_LIMIT <= self.abs() { f64::copysign(1.0, self) } else { transcendental::tanh(self) }
     }
     #[inline]
     fn abs(self) -> Self {
@@ -74,6 +82,15 @@ impl Scalar for f64 {
     #[inline]
     fn any(mask: bool) -> bool {
         mask
+    }
+    #[inline]
+    fn quadrant(self) -> (bool, bool, bool) {
+        let n = self as i64;
+        (n & 1 != 0, n & 2 != 0, (n + 1) & 2 != 0)
+    }
+    #[inline]
+    fn power_of_two(self) -> Self {
+        Self::from_bits(((self as i64 + 1023) as u64) << 52)
     }
     #[inline]
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {

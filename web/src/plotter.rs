@@ -86,7 +86,7 @@ mod drawing {
     /// Returns eight numbers per panel: left, top, right and bottom of its plotting area in device pixels of the canvas, what
     /// its left and right edge stand for (time in s; in the phase plane the panel's unit), and the values at its bottom and
     /// top. The horizontal axis is linear. So is the vertical one unless the view asks for `symlog` of a figure that has it:
-    /// then it is linear in `asinh(y / 2c)`, where c is `10^(k − 4)` and `10^k` the power of ten at or above the larger of
+    /// then it is linear in `asinh(y / 2c)`, where c is `10^(k − 3)` and `10^k` the power of ten at or above the larger of
     /// |bottom| and |top|. Throws JSON text `{pointer, message}`.
     #[wasm_bindgen]
     pub fn draw_figure(

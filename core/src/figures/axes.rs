@@ -22,7 +22,7 @@ pub(super) struct Axis {
 }
 
 /// Decades that a symmetric-logarithmic axis shows on the larger side of zero, the last of them begun.
-const DECADES: i32 = 4;
+const DECADES: i32 = 3;
 
 /// Exponent of the power of ten at or above a positive number.
 pub(super) fn decade_above(x: f64) -> i32 {
@@ -34,7 +34,7 @@ pub(super) fn power_of_ten(exponent: i32) -> f64 {
     power(10.0, f64::from(exponent))
 }
 
-/// Threshold c of a symmetric-logarithmic axis from `low` to `high`: four decades below the power of ten that is at or
+/// Threshold c of a symmetric-logarithmic axis from `low` to `high`: three decades below the power of ten that is at or
 /// above the larger end.
 pub(super) fn threshold(low: f64, high: f64) -> f64 {
     power_of_ten(decade_above(low.abs().max(high.abs())) - DECADES)
@@ -229,13 +229,13 @@ mod tests {
     #[test]
     fn the_symmetric_axis_is_odd_rising_linear_inside_and_even_per_decade_outside() {
         let axis = Axis::new(AxisKind::Symlog, (-0.05, 0.05), 200.0, 0.0);
-        // Above 0.05 is 0.1; four decades below it is the threshold.
-        assert!((threshold(-0.05, 0.05) - 1e-5).abs() < 1e-18);
+        // Above 0.05 is 0.1; three decades below it is the threshold.
+        assert!((threshold(-0.05, 0.05) - 1e-4).abs() < 1e-17);
         assert_eq!((axis.pixel(0.05).round(), axis.pixel(-0.05).round(), axis.pixel(0.0).round()), (0.0, 200.0, 100.0));
         let up = |y: f64| 100.0 - axis.pixel(y);
-        let decades = [up(1e-3) - up(1e-4), up(1e-2) - up(1e-3)];
-        assert!((decades[0] - decades[1]).abs() < 0.01 * decades[1], "{decades:?}");
-        assert!((up(2e-6) / up(1e-6) - 2.0).abs() < 0.01, "linear about zero");
+        let decades = [up(3e-3) - up(3e-4), up(3e-2) - up(3e-3)];
+        assert!((decades[0] - decades[1]).abs() < 0.05 * decades[1], "{decades:?}");
+        assert!((up(2e-5) / up(1e-5) - 2.0).abs() < 0.01, "linear about zero");
         assert!((up(3e-4) + up(-3e-4)).abs() < 1e-9, "odd");
         let values = [-0.05, -1e-3, -1e-6, 0.0, 1e-7, 1e-4, 0.02];
         assert!(values.windows(2).all(|pair| up(pair[0]) < up(pair[1])));

@@ -1,5 +1,6 @@
 //! How a figure is laid out: a legend on top, panels side by side and below each other, one time axis title at the bottom.
 
+use super::axes::value_range;
 use super::figure::Figure;
 use super::legend::draw_legend;
 use super::panel::{Cell, PanelPlace, Scratch, Shared, draw_panel};
@@ -26,17 +27,18 @@ pub fn draw<S: Surface>(
     let mut pen = Pen { surface, style: view.style };
     pen.fill(whole, view.style.theme.background())?;
     let panels = panels(figure, robot, runs, view);
-    let top = draw_legend(&mut pen, whole.right, &entries(figure, &panels, runs, view))?;
-
-    let over_time = panels.iter().all(|panel| panel.x_label.is_none());
-    let bottom = if over_time { whole.bottom - pen.px(16.0) } else { whole.bottom };
-    let columns = figure.columns(whole.right / view.style.scale);
-    let rows = panels.len().div_ceil(columns);
     let shared = Shared {
         runs,
         window: window(figure, runs, view),
         kind: if figure.has_symlog() { view.axis } else { AxisKind::Linear },
     };
+    let ranges: Vec<_> = panels.iter().map(|panel| value_range(panel, runs, shared.window, shared.kind)).collect();
+    let top = draw_legend(&mut pen, whole.right, &entries(figure, &panels, &ranges, runs, view))?;
+
+    let over_time = panels.iter().all(|panel| panel.x_label.is_none());
+    let bottom = if over_time { whole.bottom - pen.px(16.0) } else { whole.bottom };
+    let columns = figure.columns(whole.right / view.style.scale);
+    let rows = panels.len().div_ceil(columns);
     let mut scratch = Scratch::default();
     let mut places = Vec::with_capacity(panels.len());
     for (n, panel) in panels.iter().enumerate() {
@@ -48,7 +50,7 @@ pub fn draw<S: Surface>(
             top: share(top, bottom, row, rows).round(),
             bottom: share(top, bottom, row + 1, rows).round(),
         };
-        let place = draw_panel(&mut pen, &Cell { frame }, panel, &shared, &mut scratch)?;
+        let place = draw_panel(&mut pen, &Cell { frame }, panel, ranges[n], &shared, &mut scratch)?;
         if over_time && n + columns >= panels.len() {
             let at = (f64::midpoint(place.left, place.right), frame.bottom - pen.px(2.0));
             pen.text(view.texts.time_axis, at, 12.5, view.style.theme.ink(), Anchor::Top)?;
@@ -68,7 +70,13 @@ fn window(figure: Figure, runs: &[PlottedRun<'_>], view: &View<'_>) -> (f64, f64
 }
 
 /// Names of the lines: of runs in the caller's order, of parts in the equation's, of what they are compared with.
-fn entries<'a>(figure: Figure, panels: &[Panel], runs: &[PlottedRun<'a>], view: &View<'a>) -> Vec<(&'a str, Line)> {
+fn entries<'a>(
+    figure: Figure,
+    panels: &[Panel],
+    ranges: &[(f64, f64)],
+    runs: &[PlottedRun<'a>],
+    view: &View<'a>,
+) -> Vec<(&'a str, Line)> {
     let theme = view.style.theme;
     let mut curves: Vec<_> =
         panels.first().map_or(&[][..], |panel| &panel.curves).iter().map(|curve| (curve.key, curve.line)).collect();
@@ -86,7 +94,10 @@ fn entries<'a>(figure: Figure, panels: &[Panel], runs: &[PlottedRun<'a>], view: 
         let name = if figure == Figure::Positions { "desired" } else { "true value" };
         entries.push((view.texts.reference.unwrap_or(name), Line::of_reference(theme)));
     }
-    if panels.iter().any(|panel| panel.limit.is_some()) {
+    let in_range = |panel: &Panel, (low, high): (f64, f64)| {
+        panel.limit.is_some_and(|limit| limit.value <= high || -limit.value >= low)
+    };
+    if panels.iter().zip(ranges).any(|(panel, range)| in_range(panel, *range)) {
         let name = if figure == Figure::Voltages { "supply limit" } else { "effort limit" };
         entries.push((view.texts.limit.unwrap_or(name), Line::of_limit(theme)));
     }

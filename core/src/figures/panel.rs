@@ -1,6 +1,6 @@
 //! How one panel looks: grid, labelled axes, limits, references and curves.
 
-use super::axes::{Axis, value_range, x_range};
+use super::axes::{Axis, x_range};
 use super::decimate::{Columns, Point, Thinner, thin_out};
 use super::panels::{Panel, Reference};
 use super::path::{Frame, Path};
@@ -28,7 +28,7 @@ pub struct PanelPlace {
     /// Value at the bottom, in the panel's unit.
     pub y_bottom: f64,
     /// Value at the top. On a linear axis values in between are linear. A symmetric-logarithmic axis is linear in
-    /// `asinh(y / 2c)`, where c is `10^(k − 4)` and `10^k` the power of ten at or above the larger of `|y_bottom|` and
+    /// `asinh(y / 2c)`, where c is `10^(k − 3)` and `10^k` the power of ten at or above the larger of `|y_bottom|` and
     /// `|y_top|`: within ±c it is nearly linear, beyond it counts decades.
     pub y_top: f64,
 }
@@ -68,11 +68,12 @@ const LABELS: f64 = 12.5;
 /// What a straight line may leave out, layout pixels: nobody sees it.
 const TOLERANCE: f64 = 0.1;
 
-/// Draws a panel into its cell.
+/// Draws a panel that shows a range of values into its cell.
 pub(super) fn draw_panel<S: Surface>(
     pen: &mut Pen<'_, S>,
     cell: &Cell,
     panel: &Panel,
+    y_values: (f64, f64),
     shared: &Shared<'_>,
     scratch: &mut Scratch,
 ) -> Result<PanelPlace, DrawError> {
@@ -80,19 +81,19 @@ pub(super) fn draw_panel<S: Surface>(
     let over_time = panel.x_label.is_none();
     let x_values = if over_time { shared.window } else { x_range(panel, shared.runs, shared.window) };
     let x = Axis::new(AxisKind::Linear, x_values, frame.left, frame.right);
-    let y_values = value_range(panel, shared.runs, shared.window, shared.kind);
     let y = Axis::new(shared.kind, y_values, frame.bottom, frame.top);
     draw_axes(pen, cell, panel, &frame, &x, &y)?;
     draw_lines_across(pen, panel, &frame, &y)?;
 
     let plot = Plot { frame, x, y, window: shared.window };
-    if let Some(Reference::Curve { run, quantity }) = panel.reference {
-        trace(pen, &plot, &shared.runs[run], None, quantity, scratch);
-        pen.curve(&scratch.path, Line::of_reference(pen.style.theme))?;
-    }
     for curve in &panel.curves {
         trace(pen, &plot, &shared.runs[curve.run], curve.x, curve.y, scratch);
         pen.curve(&scratch.path, curve.line)?;
+    }
+    // On top: a good run would hide it.
+    if let Some(Reference::Curve { run, quantity }) = panel.reference {
+        trace(pen, &plot, &shared.runs[run], None, quantity, scratch);
+        pen.curve(&scratch.path, Line::of_reference(pen.style.theme))?;
     }
     Ok(PanelPlace {
         left: frame.left,
@@ -135,8 +136,9 @@ fn draw_axes<S: Surface>(
 ) -> Result<(), DrawError> {
     let (ink, grid) = (pen.style.theme.ink(), pen.style.theme.grid());
     let room = |length: f64, each: f64, most: usize| ((length / pen.style.scale / each) as usize).clamp(2, most);
-    let x_ticks = ticks(x, room(frame.right - frame.left, 64.0, 8), pen.style.scale);
-    let y_ticks = ticks(y, room(frame.bottom - frame.top, 26.0, 6), pen.style.scale);
+    let each = if is_narrow(pen, cell) { 36.0 } else { 64.0 };
+    let x_ticks = ticks(x, room(frame.right - frame.left, each, 8), pen.style.scale);
+    let y_ticks = ticks(y, room(frame.bottom - frame.top, 17.0, 6), pen.style.scale);
     let tick = pen.px(4.0);
     for (value, text) in &y_ticks {
         let at = y.pixel(*value);

@@ -7,7 +7,7 @@ use super::view::AxisKind;
 pub(super) type Tick = (f64, String);
 
 /// Least distance of ticks on a symmetric-logarithmic axis, layout pixels.
-const APART: f64 = 15.0;
+const APART: f64 = 14.0;
 /// An end that is a tick stays one in spite of rounding.
 const EPSILON: f64 = 1e-9;
 

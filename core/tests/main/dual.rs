@@ -116,6 +116,12 @@ impl Scalar for Dual {
     fn any(mask: bool) -> bool {
         mask
     }
+    fn quadrant(self) -> (bool, bool, bool) {
+        self.value.quadrant()
+    }
+    fn power_of_two(self) -> Self {
+        Self::new(self.value.power_of_two(), 0.0)
+    }
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

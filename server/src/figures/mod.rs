@@ -6,7 +6,7 @@ mod request;
 
 pub use request::{FigureRequest, NoFigure, PictureFormat, file_names};
 
-use adaptarm_core::figures::{DrawError, Figure, PlottedRun, Theme, svg};
+use adaptarm_core::figures::{DrawError, Figure, PlottedRun, Style, Theme, View, svg};
 use adaptarm_core::robots::RobotData;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{self, fontdb};
@@ -28,6 +28,9 @@ pub enum FigureError {
     /// The picture could not be allocated or encoded.
     #[error("the figure's PNG cannot be written: {0}")]
     Png(String),
+    /// The run's scenario, which some figures need, cannot be read.
+    #[error("the run's scenario cannot be read: {0}")]
+    Scenario(String),
 }
 
 /// The program's own font, under the names that drawings use.
@@ -38,14 +41,9 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// A figure as SVG.
-pub fn figure_svg(
-    figure: Figure,
-    robot: &RobotData,
-    runs: &[PlottedRun<'_>],
-    theme: Theme,
-) -> Result<String, FigureError> {
-    Ok(svg(figure, robot, runs, theme)?)
+/// A figure of whole runs as SVG, on paper.
+pub fn figure_svg(figure: Figure, robot: &RobotData, runs: &[PlottedRun<'_>]) -> Result<String, FigureError> {
+    Ok(svg(figure, robot, runs, &View::whole(Style { theme: Theme::Light, scale: 1.0 }))?)
 }
 
 /// A figure's SVG as PNG, twice its natural size.

@@ -7,10 +7,11 @@ use super::{FigureError, figure_svg, png};
 use crate::document::brief;
 use crate::download::{Disposition, Download};
 use crate::error::Problem;
-use adaptarm_core::figures::{Figure, PlottedRun, Theme};
+use adaptarm_core::decomposition::TorqueParts;
+use adaptarm_core::figures::{Figure, PlottedRun};
 use adaptarm_core::recording::Recording;
 use adaptarm_core::robots::{RobotData, robot};
-use adaptarm_core::scenario::{OutcomeKind, Report, Scheme};
+use adaptarm_core::scenario::{OutcomeKind, Report, Scenario, Scheme};
 use axum::body::Bytes;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
@@ -79,7 +80,7 @@ impl From<NoFigure> for Problem {
     }
 }
 
-/// File names of the figures that show something of this scheme, in the paper's order.
+/// File names of the figures that show something of this scheme, the paper's first.
 pub fn file_names(scheme: Scheme) -> impl Iterator<Item = String> {
     let shown = Figure::ALL.into_iter().filter(move |figure| figure.shows(scheme));
     shown.flat_map(|figure| PictureFormat::ALL.map(|format| file_name(figure, format)))
@@ -124,30 +125,42 @@ impl FigureRequest {
         self.download.not_modified(request)
     }
 
-    /// The picture's bytes. Takes a processor a millisecond as SVG and a tenth of a second as PNG.
-    pub fn draw(&self, report: &Report, recording: &Recording) -> Result<Vec<u8>, FigureError> {
+    /// The picture's bytes; `document` is the run's scenario as JSON. Takes a processor a millisecond as SVG and a tenth of a
+    /// second as PNG.
+    pub fn draw(&self, report: &Report, document: &str, recording: &Recording) -> Result<Vec<u8>, FigureError> {
+        let parts = self.torque_parts(document, recording)?;
+        let completed = report.outcome == OutcomeKind::Completed;
         let run = PlottedRun {
-            scheme: self.scheme,
-            recording,
-            completed: report.outcome == OutcomeKind::Completed,
-            theta_true: &report.theta_true,
+            parts: parts.as_ref(),
+            ..PlottedRun::new(self.scheme, recording, completed, &report.theta_true)
         };
-        let svg = figure_svg(self.figure, self.robot, &[run], Theme::Light)?;
+        let svg = figure_svg(self.figure, self.robot, &[run])?;
         match self.format {
             PictureFormat::Svg => Ok(svg.into_bytes()),
             PictureFormat::Png => png(&svg),
         }
     }
 
+    /// The torques, split, for the one figure that shows them.
+    fn torque_parts(&self, document: &str, recording: &Recording) -> Result<Option<TorqueParts>, FigureError> {
+        if self.figure != Figure::TorqueParts {
+            return Ok(None);
+        }
+        let scenario = Scenario::read(&mut serde_json::Deserializer::from_str(document))
+            .map_err(|error| FigureError::Scenario(error.to_string()))?;
+        Ok(Some(scenario.torque_parts(recording)))
+    }
+
     /// The picture, drawn beside the async threads.
     pub async fn respond(
         self,
         report: Report,
+        document: String,
         recording: Arc<Recording>,
         request: &HeaderMap,
     ) -> Result<Response, Problem> {
         let drawn = spawn_blocking(move || {
-            let picture = self.draw(&report, &recording);
+            let picture = self.draw(&report, &document, &recording);
             picture.map(|picture| (self.download, Bytes::from(picture)))
         });
         let (download, picture) = drawn.await.map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
@@ -163,49 +176,55 @@ fn failed(error: &dyn std::error::Error) -> Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use adaptarm_core::scenario::{Run, Scenario};
+    use adaptarm_core::scenario::Run;
     use axum::http::header;
     use http_body_util::BodyExt;
 
-    fn run(scheme: Scheme) -> Run {
+    /// A short run and its scenario's document.
+    fn run(scheme: Scheme) -> (Run, String) {
         let mut document = scheme.paper();
         (document.integration.duration_s, document.recording.samples) = (0.05, 25);
-        Scenario::new(document).unwrap().run()
+        let scenario = Scenario::new(document).unwrap();
+        (scenario.run(), serde_json::to_string(scenario.document()).unwrap())
     }
 
     #[test]
     fn every_figure_of_every_scheme_can_be_drawn() {
         for scheme in Scheme::ALL {
-            let Run { report, recording } = run(scheme);
+            let (Run { report, recording }, document) = run(scheme);
             for name in file_names(scheme).filter(|name| name.ends_with("svg")) {
-                let picture = FigureRequest::new(&name, &report).unwrap().draw(&report, &recording).unwrap();
+                let picture = FigureRequest::new(&name, &report).unwrap().draw(&report, &document, &recording).unwrap();
                 assert!(picture.starts_with(b"<svg "), "{name}");
             }
             // All of them pass through the same painter, which is slow unless it is optimised.
-            let picture = FigureRequest::new("torques.png", &report).unwrap().draw(&report, &recording).unwrap();
+            let picture =
+                FigureRequest::new("torques.png", &report).unwrap().draw(&report, &document, &recording).unwrap();
             assert!(picture.starts_with(b"\x89PNG\r\n\x1a\n"));
         }
     }
 
     #[test]
     fn a_run_that_ended_at_once_has_figures_too() {
-        let Run { report, recording } = run(Scheme::Proposed);
+        let (Run { report, recording }, document) = run(Scheme::Proposed);
         let empty = Recording::with_capacity(recording.columns(), 0);
         let report = Report { outcome: OutcomeKind::Diverged, ..report };
         for name in file_names(Scheme::Proposed).filter(|name| name.ends_with("svg")) {
-            FigureRequest::new(&name, &report).unwrap().draw(&report, &empty).unwrap();
+            FigureRequest::new(&name, &report).unwrap().draw(&report, &document, &empty).unwrap();
         }
     }
 
     #[test]
     fn an_unknown_name_is_answered_with_those_there_are() {
-        let report = run(Scheme::SlotineLi).report;
+        let report = run(Scheme::SlotineLi).0.report;
         // Only the proposed scheme has an observer.
         for name in ["", "torques", "torques.pdf", "torques.svg.png", "../torques.svg", "observer_errors.svg"] {
             let problem = Problem::from(FigureRequest::new(name, &report).unwrap_err());
             let allowed = "tracking_errors.svg, tracking_errors.png, velocity_errors.svg, velocity_errors.png, \
                            estimates_1.svg, estimates_1.png, estimates_2.svg, estimates_2.png, estimates_3.svg, \
-                           estimates_3.png, torques.svg, torques.png";
+                           estimates_3.png, torques.svg, torques.png, positions.svg, positions.png, voltages.svg, \
+                           voltages.png, sliding_variables.svg, sliding_variables.png, phase_plane.svg, \
+                           phase_plane.png, parameter_error_norm.svg, parameter_error_norm.png, estimates.svg, \
+                           estimates.png, torque_parts.svg, torque_parts.png";
             assert_eq!(problem.status, 404);
             assert_eq!(problem.detail, format!("there is no figure {name:?}; of this run there are: {allowed}"));
         }
@@ -214,12 +233,20 @@ mod tests {
         assert_eq!(error, "the report names robot \"puma\", which this version cannot draw");
     }
 
+    #[test]
+    fn a_scenario_that_cannot_be_read_is_missed_only_where_it_is_needed() {
+        let (Run { report, recording }, _) = run(Scheme::Proposed);
+        let draw = |name| FigureRequest::new(name, &report).unwrap().draw(&report, "{}", &recording);
+        assert!(draw("torques.svg").is_ok());
+        assert!(matches!(draw("torque_parts.svg"), Err(FigureError::Scenario(_))));
+    }
+
     #[tokio::test]
     async fn the_answer_is_the_picture_and_need_not_be_sent_again() {
-        let Run { report, recording } = run(Scheme::Proposed);
+        let (Run { report, recording }, document) = run(Scheme::Proposed);
         let request = FigureRequest::new("torques.svg", &report).unwrap();
-        let picture = request.draw(&report, &recording).unwrap();
-        let answer = request.clone().respond(report, Arc::new(recording), &HeaderMap::new()).await.unwrap();
+        let picture = request.draw(&report, &document, &recording).unwrap();
+        let answer = request.clone().respond(report, document, Arc::new(recording), &HeaderMap::new()).await.unwrap();
         assert_eq!(answer.headers()[header::CONTENT_TYPE], "image/svg+xml");
         assert_eq!(answer.headers()[header::CONTENT_DISPOSITION], "inline; filename=\"proposed-torques.svg\"");
         let again = HeaderMap::from_iter([(header::IF_NONE_MATCH, answer.headers()[header::ETAG].clone())]);

@@ -2,7 +2,7 @@
 
 use super::{Replication, html};
 use crate::figures::{figure_svg, png};
-use adaptarm_core::figures::{Figure, PlottedRun, Theme};
+use adaptarm_core::figures::{Figure, PlottedRun};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -26,21 +26,19 @@ pub(super) fn write(replication: &Replication, folder: &Path) -> Result<PathBuf>
     Ok(folder.join("report.html"))
 }
 
-/// Every figure as SVG, on paper.
+/// The report's figures as SVG, on paper.
 fn draw(replication: &Replication) -> Result<Vec<(Figure, String)>> {
     let robot = replication.scenarios[0].robot();
     let runs: Vec<_> = replication
         .scenarios
         .iter()
         .zip(&replication.runs)
-        .map(|(scenario, run)| PlottedRun {
-            scheme: scenario.scheme(),
-            recording: &run.recording,
-            completed: run.report.at_s.is_none(),
-            theta_true: &run.report.theta_true,
+        .map(|(scenario, run)| {
+            let completed = run.report.at_s.is_none();
+            PlottedRun::new(scenario.scheme(), &run.recording, completed, &run.report.theta_true)
         })
         .collect();
-    Figure::ALL.into_iter().map(|figure| Ok((figure, figure_svg(figure, robot, &runs, Theme::Light)?))).collect()
+    Figure::REPLICATION.into_iter().map(|figure| Ok((figure, figure_svg(figure, robot, &runs)?))).collect()
 }
 
 fn save(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> Result<()> {

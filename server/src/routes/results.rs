@@ -131,7 +131,7 @@ pub(super) async fn series(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
-    let (row, report) = find_report(&state, &job, query.scenario).await?;
+    let (row, _, report) = find_report(&state, &job, query.scenario).await?;
     let request = SeriesRequest::new(&query, &report)?;
     if let Some(response) = request.not_modified(&headers) {
         return Ok(response);
@@ -149,7 +149,7 @@ pub(super) struct FigureQuery {
     scenario: usize,
 }
 
-/// A figure of one scenario, as drawn for the published study.
+/// A figure of one scenario: those of the published study, and more.
 ///
 /// Needs the scope `jobs:read`.
 #[utoipa::path(
@@ -183,19 +183,19 @@ pub(super) async fn figure(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
-    let (row, report) = find_report(&state, &job, query.scenario).await?;
+    let (row, document, report) = find_report(&state, &job, query.scenario).await?;
     let request = FigureRequest::new(&name, &report)?;
     if let Some(response) = request.not_modified(&headers) {
         return Ok(response);
     }
-    request.respond(report, samples(&state, &row).await?, &headers).await
+    request.respond(report, document, samples(&state, &row).await?, &headers).await
 }
 
-/// The report on one scenario of a job.
-async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioRow, Report), Problem> {
+/// One scenario of a job with its document and the report on it.
+async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioRow, String, Report), Problem> {
     let number = i64::try_from(n).unwrap_or(i64::MAX);
     let found = state.store.scenario(job.id, number).await.map_err(database)?;
-    let (row, _) = found.ok_or_else(|| Problem::not_found("scenario in this job called", &n.to_string()))?;
+    let (row, document) = found.ok_or_else(|| Problem::not_found("scenario in this job called", &n.to_string()))?;
     let Some(report) = &row.report else {
         if row.core_version.is_none() {
             return Err(not_ready(job, "this scenario's samples"));
@@ -204,7 +204,7 @@ async fn find_report(state: &AppState, job: &Job, n: usize) -> Result<(ScenarioR
         return Err(Problem::new(StatusCode::GONE, "/problems/gone", "No longer kept", detail));
     };
     let report = serde_json::from_str(report).map_err(super::internal)?;
-    Ok((row, report))
+    Ok((row, document, report))
 }
 
 /// The samples of one scenario that has a report.
