@@ -11,6 +11,9 @@ export class Laboratory extends EventTarget {
   #pool = null;
   /** Scheme to the generation of its newest run. */
   #wanted = {};
+  /** Runs that are no scheme's, by the key that the pool has for them: `{resolve, reject}`. */
+  #asides = new Map();
+  #asideCount = 0;
   /** Scheme to `{generation, scenario, report, elapsed_ms}`, `scenario` as the text that ran, `{generation, stoppedAt}` with the
    *  share that was simulated, or `{generation, failure}`. */
   results = {};
@@ -55,6 +58,40 @@ export class Laboratory extends EventTarget {
     return failure;
   }
 
+  /** Resolves once every scheme's newest run has ended. */
+  idle() {
+    return new Promise((resolve) => {
+      const look = () => {
+        if (this.isReady) {
+          this.removeEventListener("result", look);
+          resolve();
+        }
+      };
+      this.addEventListener("result", look);
+      look();
+    });
+  }
+
+  /** Runs a scenario's text beside the schemes' runs; resolves to `{report, rows}`, or to null if `signal` was given first. */
+  compute(scenario, signal) {
+    const key = `aside:${(this.#asideCount += 1)}`;
+    return new Promise((resolve, reject) => {
+      this.#asides.set(key, { resolve, reject });
+      signal.addEventListener("abort", () => this.#pool.stop(key));
+      this.#pool.submit(key, this.generation, scenario);
+    });
+  }
+
+  /** Whether a message of the pool was about a run beside the schemes'; then it has been dealt with. */
+  #settleAside(key, settle) {
+    const aside = this.#asides.get(key);
+    if (aside) {
+      this.#asides.delete(key);
+      settle(aside);
+    }
+    return aside !== undefined;
+  }
+
   #change(apply) {
     try {
       const changed = apply();
@@ -68,6 +105,10 @@ export class Laboratory extends EventTarget {
   }
 
   #submit(schemes) {
+    if (!this.#pool) {
+      // `begin` runs everything.
+      return;
+    }
     this.generation += 1;
     this.askedAt = performance.now();
     for (const scheme of schemes) {
@@ -79,12 +120,18 @@ export class Laboratory extends EventTarget {
   }
 
   done({ scheme, generation, scenario, report, rows, elapsed_ms }) {
+    if (this.#settleAside(scheme, ({ resolve }) => resolve({ report, rows }))) {
+      return;
+    }
     this.results[scheme] = { generation, scenario, report, elapsed_ms };
     this.#runs.set(scheme, scenario, rows, report.outcome === "completed");
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
   failed({ scheme, generation, message }) {
+    if (this.#settleAside(scheme, ({ reject }) => reject(new Error(message)))) {
+      return;
+    }
     this.results[scheme] = { generation, failure: message };
     this.#runs.remove(scheme);
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
@@ -101,6 +148,9 @@ export class Laboratory extends EventTarget {
   }
 
   stopped({ scheme, generation, progress }) {
+    if (this.#settleAside(scheme, ({ resolve }) => resolve(null))) {
+      return;
+    }
     if (generation === this.#wanted[scheme]) {
       this.results[scheme] = { generation, stoppedAt: progress };
       this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));

@@ -2,13 +2,18 @@
 // to views. Each feature is one module that gets `app` and a place on the page.
 
 import "./elements/scheme-card.js";
+import { Address } from "./address.js";
 import { announce } from "./announce.js";
+import { translated } from "./core-text.js";
 import { byId, element } from "./dom.js";
 import { formatSeconds } from "./format.js";
+import { History } from "./history.js";
+import { takeHandover } from "./handover.js";
 import { Laboratory } from "./laboratory.js";
 import { buildMasthead } from "./masthead.js";
 import { notice } from "./notice.js";
 import { RunPool } from "./pool.js";
+import { learnNames } from "./refusal.js";
 import { State } from "./state.js";
 import { strings } from "./strings/index.js";
 import { isDark, onTheme } from "./theme.js";
@@ -25,6 +30,7 @@ import { buildStage } from "./views/stage.js";
 import { buildTables } from "./views/tables.js";
 import { buildTour } from "./views/tour.js";
 import { failureOf, loadModule } from "./wasm.js";
+import { Words } from "./words.js";
 
 const root = document.documentElement;
 
@@ -39,7 +45,8 @@ async function main() {
     return;
   }
   const { bindings, module } = loaded;
-  const description = JSON.parse(bindings.describe());
+  const description = translated(JSON.parse(bindings.describe()));
+  learnNames(description);
   const check = (scenario) => bindings.check(JSON.stringify(scenario));
   for (const study of description.studies) {
     study.hashes = Object.fromEntries(Object.entries(study.documents).map(([id, scenario]) => [id, check(scenario)]));
@@ -50,10 +57,17 @@ async function main() {
     notice(strings.stateDropped, "warning");
   }
   const runs = new bindings.Runs();
-  build({ bindings, module, description, state, paper, runs, timeline: new Timeline(), laboratory: new Laboratory(state, runs) });
+  const laboratory = new Laboratory(state, runs);
+  const app = { bindings, module, description, state, paper, runs, timeline: new Timeline(), laboratory };
+  app.words = new Words(description);
+  app.history = new History(app);
+  app.address = new Address(app);
+  await app.address.start();
+  build(app);
 }
 
-/** `app` is what every feature gets: module, description, state, laboratory, runs, timeline and, from here on, figures. */
+/** `app` is what every feature gets: module, description, state, its history and address, laboratory, runs, timeline and, from
+ * here on, figures. */
 function build(app) {
   const { module, description, state, paper, laboratory, timeline } = app;
   const figures = new Figures(app, byId("figures"));
@@ -65,7 +79,7 @@ function build(app) {
   const cards = buildCards(app);
   buildPinned(byId("pinned"), figures);
   buildStage(byId("stage"), app);
-  buildCompare(byId("compare"), app);
+  const pins = buildCompare(byId("compare"), app);
   buildShare(byId("share"), app);
   buildServerRun(byId("server-run"), app);
   buildExplain(app);
@@ -76,6 +90,12 @@ function build(app) {
     figures.redraw();
   });
   showSchemes(app);
+  state.addEventListener("shown", () => {
+    for (const [id, card] of Object.entries(cards)) {
+      card.shown = state.visible.has(id);
+    }
+    showSchemes(app);
+  });
   byId("colophon").textContent = strings.colophon(description.core_version);
 
   laboratory.addEventListener("asked", () => {
@@ -122,6 +142,8 @@ function build(app) {
     gaveUp: (message) => notice(strings.failed(`${strings.workerGone}: ${message}`), "error"),
   });
   laboratory.begin(pool);
+  pins.begin();
+  takeHandover(app);
 }
 
 function buildCards(app) {
@@ -131,9 +153,8 @@ function buildCards(app) {
     const card = element("scheme-card");
     card.configure(scheme, state.visible.has(scheme.id));
     card.addEventListener("toggle", ({ detail }) => {
-      state.visible[detail.shown ? "add" : "delete"](scheme.id);
-      state.remember();
-      showSchemes(app);
+      const others = [...state.visible].filter((id) => id !== scheme.id);
+      state.show(detail.shown ? [...others, scheme.id] : others);
     });
     card.addEventListener("stop", () => laboratory.stop(scheme.id));
     card.addEventListener("again", () => laboratory.again(scheme.id));
@@ -145,9 +166,10 @@ function buildCards(app) {
 }
 
 /** Shows the visible schemes, in the core's order. */
-function showSchemes({ description, state, figures }) {
+function showSchemes({ description, state, figures, laboratory }) {
   figures.shown = description.schemes.map(({ id }) => id).filter((id) => state.visible.has(id));
   figures.redraw();
+  laboratory.dispatchEvent(new Event("shown"));
 }
 
 /** Colours come from the core, so that page and figures cannot disagree. */

@@ -1,7 +1,9 @@
-// The head that all pages share: title, the way to the other pages, theme. Also fills the page's static texts.
+// The head that all pages share: title, the way to the other pages, language, theme. Also fills the page's static texts and
+// keeps the page for use without a server.
 
 import { byId, element, fillTexts } from "./dom.js";
-import { strings } from "./strings/index.js";
+import { keepOffline } from "./offline.js";
+import { LANGUAGES, language, speak, strings } from "./strings/index.js";
 import { initTheme } from "./theme.js";
 
 const PAGES = [
@@ -12,9 +14,22 @@ const PAGES = [
 
 /** Builds the masthead of the page called `current`. */
 export function buildMasthead(current) {
+  document.documentElement.lang = language;
+  document.title = strings.titles[current];
+  document.querySelector("meta[name=description]")?.setAttribute("content", strings.descriptions[current]);
   fillTexts(strings);
   byId("pages").append(
     ...PAGES.map(([id, href]) => element("a", { href, "aria-current": id === current ? "page" : null }, strings.pages[id])),
   );
+  byId("theme-toggle").before(languageChoice());
   initTheme(byId("theme-toggle"));
+  keepOffline();
+}
+
+/** Each language by its own name, for whoever does not read the present one. */
+function languageChoice() {
+  const options = Object.entries(LANGUAGES).map(([code, name]) =>
+    element("option", { value: code, lang: code, selected: code === language }, name),
+  );
+  return element("select", { id: "language", "aria-label": strings.language, onchange: ({ target }) => speak(target.value) }, options);
 }

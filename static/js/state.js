@@ -1,7 +1,8 @@
 // What the visitor has set: one checked scenario document per scheme, which schemes are shown, which tab is open.
 //
 // Documents change only through `edit` and `replace`, and only into documents that the core allows; a refused edit
-// leaves everything as it was. Remembers itself across reloads. Knows nothing of workers or elements.
+// leaves everything as it was. Emits "changed" when documents or the schemes shown are others, "shown" for the latter
+// alone. Remembers itself across reloads. Knows nothing of workers or elements.
 
 import { valueAt, withValueAt } from "./pointer.js";
 import { load, save } from "./storage.js";
@@ -10,14 +11,14 @@ const KEY = "state";
 const VERSION = 1;
 const SAVE_AFTER_MS = 200;
 
-export class State {
+export class State extends EventTarget {
   #check;
   #saving = null;
   /** Scheme to document, with everything filled in. */
   documents;
   /** Scheme to the hash of its document. */
   hashes = {};
-  /** Identifiers of the schemes shown in figures. */
+  /** Identifiers of the schemes shown in figures; changed by `show`. */
   visible;
   /** The scheme whose gains are open. */
   tab;
@@ -26,6 +27,7 @@ export class State {
 
   /** `check` returns a document's hash or throws `{pointer, message}`; `defaults` are the paper's documents. */
   constructor(check, defaults) {
+    super();
     this.#check = check;
     const schemes = Object.keys(defaults);
     const saved = load(KEY);
@@ -60,8 +62,23 @@ export class State {
   replace(documents) {
     const before = { ...this.hashes };
     this.#accept(documents);
-    this.remember();
-    return Object.keys(documents).filter((scheme) => this.hashes[scheme] !== before[scheme]);
+    const changed = Object.keys(documents).filter((scheme) => this.hashes[scheme] !== before[scheme]);
+    if (changed.length > 0) {
+      this.remember();
+      this.dispatchEvent(new Event("changed"));
+    }
+    return changed;
+  }
+
+  /** Shows exactly these schemes in figures. */
+  show(schemes) {
+    const visible = new Set(schemes);
+    if (visible.size !== this.visible.size || [...visible].some((scheme) => !this.visible.has(scheme))) {
+      this.visible = visible;
+      this.remember();
+      this.dispatchEvent(new Event("shown"));
+      this.dispatchEvent(new Event("changed"));
+    }
   }
 
   /** Saves soon: a dragged slider must not write at every pixel. */

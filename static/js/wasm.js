@@ -1,5 +1,7 @@
 // The simulation module on the main thread: loaded once, compiled once, shared with the workers.
 
+import { refusal } from "./refusal.js";
+
 /** Loads the module. Throws with a reason for people when it is missing or broken. */
 export async function loadModule() {
   // Imported here and not above: a missing file must be a message, not a page that stays blank.
@@ -14,11 +16,12 @@ export async function loadModule() {
   return { bindings, module };
 }
 
-/** What a core function threw, as `{pointer, message}`. */
+/** What a core function threw, as `{pointer, message}`, the message in the reader's language. */
 export function failureOf(error) {
   if (typeof error === "string") {
     try {
-      return JSON.parse(error);
+      const failure = JSON.parse(error);
+      return { ...failure, message: refusal(failure) };
     } catch {
       return { pointer: "", message: error };
     }

@@ -1,22 +1,31 @@
-//! Errors as the page receives them: an object with the JSON pointer of the offending field and the core's own message.
+//! Errors as the page receives them: an object with the JSON pointer of the offending field, the core's own message, and
+//! where the core has them the facts behind it, so that the page can say them in the reader's language.
 
-use adaptarm_core::scenario::{ReadError, Scenario};
+use adaptarm_core::scenario::{Problem, ReadError, Scenario};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
 /// What is wrong and where.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Failure {
     /// JSON pointer to the offending field; empty for the whole document.
     pub pointer: String,
     /// One sentence for people.
     pub message: String,
+    /// The same as numbers and names, where the document could be read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub problem: Option<Problem>,
 }
 
 impl Failure {
     /// A failure of the whole document or of the caller.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { pointer: String::new(), message: message.into() }
+        Self::at("", message)
+    }
+
+    /// A failure at a place of a document.
+    pub fn at(pointer: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), message: message.into(), problem: None }
     }
 }
 
@@ -39,6 +48,10 @@ pub(crate) fn read(json: &str) -> Result<Scenario, Failure> {
             }
             ReadError::Invalid(_) => error.to_string(),
         },
+        problem: match error {
+            ReadError::Document { .. } => None,
+            ReadError::Invalid(error) => Some(error.problem),
+        },
     })
 }
 
@@ -59,5 +72,8 @@ mod tests {
         let range = failure(r#"{"kind":"slotine_li","gains":{"k_s":[1,2,-3]}}"#);
         assert_eq!(range.pointer, "/scheme/gains/k_s/2");
         assert!(range.message.contains("-3 is outside"), "{}", range.message);
+        let facts = serde_json::json!(range)["problem"].clone();
+        assert_eq!(facts["problem"], "out_of_range");
+        assert_eq!((&facts["value"], &facts["min"], &facts["max"]), (&(-3.0).into(), &0.0.into(), &1e5.into()));
     }
 }

@@ -12,6 +12,12 @@ pub fn check(scenario_json: &str) -> Result<String, JsValue> {
     Ok(read(scenario_json)?.hash())
 }
 
+/// Checks a scenario; returns it with everything filled in, as JSON text. Throws JSON text `{pointer, message}`.
+#[wasm_bindgen]
+pub fn resolve(scenario_json: &str) -> Result<String, JsValue> {
+    serde_json::to_string(read(scenario_json)?.document()).map_err(|error| Failure::new(error.to_string()).into())
+}
+
 /// A run under way or finished.
 #[wasm_bindgen]
 pub struct Run {
@@ -90,6 +96,14 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_resolved_scenario_has_every_field_and_the_same_hash() {
+        let json = r#"{"format":"adaptarm.scenario/1","scheme":{"kind":"slotine_li","gains":{"k_s":[1,2,3]}}}"#;
+        let Ok(full) = resolve(json) else { panic!("the scenario is allowed") };
+        assert!(full.contains("\"theta_scale\"") && full.contains("[1.0,2.0,3.0]"), "{full}");
+        assert_eq!(read(&full).unwrap().hash(), read(json).unwrap().hash());
+    }
 
     #[test]
     fn a_run_in_slices_reports_what_a_run_in_one_does() {

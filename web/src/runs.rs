@@ -21,9 +21,18 @@ pub(crate) struct ShownRun {
     pub theta: Vec<f64>,
     /// Its torques, split; computed when first asked for.
     parts: OnceCell<TorqueParts>,
+    /// Differs from that of every other run that was ever added: what is made from a run is current while this is.
+    #[cfg_attr(not(target_arch = "wasm32"), expect(dead_code, reason = "read only where something is drawn"))]
+    pub revision: u64,
 }
 
 impl ShownRun {
+    /// The `revision`th run that is shown.
+    pub fn new(scenario: Scenario, recording: Recording, completed: bool, revision: u64) -> Self {
+        let theta = scenario.theta();
+        Self { scenario, recording, completed, theta, parts: OnceCell::new(), revision }
+    }
+
     /// Its torques, split into what they are spent on.
     pub fn torque_parts(&self) -> &TorqueParts {
         self.parts.get_or_init(|| self.scenario.torque_parts(&self.recording))
@@ -35,6 +44,7 @@ impl ShownRun {
 #[derive(Default)]
 pub struct Runs {
     runs: BTreeMap<String, ShownRun>,
+    added: u64,
 }
 
 #[wasm_bindgen]
@@ -77,9 +87,8 @@ impl Runs {
         let columns = Columns { joints: robot.joint_count(), parameters: robot.parameter_count() };
         let recording = Recording::from_rows(columns, rows)
             .ok_or_else(|| Failure::new("the samples end in the middle of a row".to_owned()))?;
-        let theta = scenario.theta();
-        let run = ShownRun { scenario, recording, completed, theta, parts: OnceCell::new() };
-        self.runs.insert(id.to_owned(), run);
+        self.added += 1;
+        self.runs.insert(id.to_owned(), ShownRun::new(scenario, recording, completed, self.added));
         Ok(())
     }
 

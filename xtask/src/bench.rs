@@ -1,11 +1,12 @@
-//! Timing the study's workload: builds the page and the release server, then runs the benchmark program of `tests/`.
+//! Timing the study's workload: builds the page and the release server, then runs the benchmark program of `tests/`, and
+//! after it the page in a browser where there is one.
 //!
-//! What is measured, and how, is that program's business.
+//! What is measured, and how, is their business.
 
 use anyhow::Result;
 
 use crate::workspace::{Workspace, build_server};
-use crate::{BenchArgs, DistArgs, dist, tools};
+use crate::{BenchArgs, DistArgs, browser, dist, tools};
 
 pub(crate) fn run(workspace: &Workspace, args: &BenchArgs) -> Result<()> {
     dist::run(workspace, &DistArgs { debug_info: false })?;
@@ -15,5 +16,20 @@ pub(crate) fn run(workspace: &Workspace, args: &BenchArgs) -> Result<()> {
         .env("ADAPTARM_BIN", workspace.server_program("release"))
         .args(["run", "--locked", "--release", "--package", "adaptarm-tests", "--bin", "bench_study", "--"])
         .args(&args.bench_args);
+    tools::run(&mut command)?;
+    if !browser::is_present() {
+        eprintln!("the page is not measured: {} need {}", browser::BROWSER.purpose, browser::BROWSER.needs);
+        return Ok(());
+    }
+    let mut command = workspace.cargo();
+    command.env("ADAPTARM_BIN", workspace.server_program("release")).env("ADAPTARM_BENCH", "1").args([
+        "test",
+        "--quiet",
+        "--locked",
+        "--package",
+        "adaptarm-tests",
+        "--test",
+        "browser",
+    ]);
     tools::run(&mut command)
 }

@@ -21,6 +21,7 @@ pub(crate) fn ensure() -> Result<()> {
     BROWSER.settle(BROWSER.install_or_explain(|| debian::install(BROWSER.packages, BROWSER.purpose)))
 }
 
-fn is_present() -> bool {
+/// Whether browser and driver are on PATH.
+pub(crate) fn is_present() -> bool {
     ["chromium", "chromedriver"].iter().all(|program| tools::find_program(program).is_some())
 }

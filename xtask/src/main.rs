@@ -111,9 +111,9 @@ pub(crate) struct TestArgs {
     filter: Option<String>,
 }
 
-/// Time the study's workload against the release server.
+/// Time the study natively, then the page in a browser against the release server.
 ///
-/// Arguments after `--` go to the benchmark program, `bench_study` in tests/.
+/// Prints tables with limits beside them. Arguments after `--` go to the native program, `bench_study` in tests/.
 #[derive(Args)]
 pub(crate) struct BenchArgs {
     /// Arguments for the benchmark program.

@@ -37,6 +37,14 @@ pub(crate) fn interpreter(workspace: &Workspace) -> PathBuf {
     folder(workspace).join(inside)
 }
 
+/// The script of axe-core, which one of the packages bundles.
+pub(crate) fn axe(workspace: &Workspace) -> Option<PathBuf> {
+    let versions = fs::read_dir(folder(workspace).join("lib")).into_iter().flatten().flatten();
+    let libraries = versions.map(|entry| entry.path()).chain([folder(workspace).join("Lib")]);
+    let mut scripts = libraries.map(|library| library.join("site-packages/axe_playwright_python/axe.min.js"));
+    scripts.find(|script| script.is_file())
+}
+
 fn folder(workspace: &Workspace) -> PathBuf {
     workspace.target.join("python")
 }

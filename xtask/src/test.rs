@@ -87,6 +87,9 @@ fn tests(workspace: &Workspace, args: &TestArgs) -> Result<Command> {
     }
     if python::is_current(workspace)? {
         command.env("ADAPTARM_PYTHON", python::interpreter(workspace));
+        if let Some(axe) = python::axe(workspace) {
+            command.env("ADAPTARM_AXE", axe);
+        }
     }
     command.args(["test", "--workspace", "--all-features", "--locked"]);
     if let Some(filter) = &args.filter {

@@ -5,9 +5,11 @@
 //! else is stored, integrated or multiplied.
 
 mod a465;
+mod kinematics;
 mod structure;
 
 pub use a465::CrsA465;
+pub use kinematics::{ArmPoints, Kinematics, Point, distance_m};
 pub use structure::{count_entries, count_pairs, list_entries, list_pairs};
 
 use crate::scalar::Scalar;

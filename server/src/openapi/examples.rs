@@ -65,6 +65,7 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
         ("cancel_job", 200) => json!(job(JobState::Canceled)),
         ("list_jobs", 200) => json!(JobsView { jobs: vec![job(JobState::Succeeded)], next_cursor: None }),
         ("result", 200) => result()?,
+        ("scenario", 200) => json!(Scheme::Proposed.paper()),
         ("presets", 200) => json!([PresetView::new(&PRESETS[0])?]),
         ("preset", 200) => json!(PresetView::new(&PRESETS[0])?),
         ("robots", 200) => json!([RobotView::from(ROBOTS[0])]),

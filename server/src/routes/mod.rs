@@ -54,6 +54,7 @@ fn operations() -> OpenApiRouter<AppState> {
         .routes(routes!(jobs::cancel))
         .routes(routes!(events::events))
         .routes(routes!(results::result))
+        .routes(routes!(results::scenario))
         .routes(routes!(results::series))
         .routes(routes!(results::figure))
         // What watches over servers asks at the top level.

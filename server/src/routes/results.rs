@@ -17,7 +17,7 @@ use adaptarm_core::scenario::Report;
 use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
 use futures_util::{Stream, stream};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -93,6 +93,29 @@ fn reports(state: AppState, id: Uuid, ended: JobState, count: i64) -> impl Strea
         }
         Ok(Some((Bytes::from(text), (state, reached, None))))
     })
+}
+
+/// One scenario of a job as it runs: checked, with everything filled in.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/scenarios/{n}", operation_id = "scenario", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        ("n" = u32, Path, description = "Number of the scenario; the first is 0.", example = 0),
+    ),
+    responses((status = 200, description = "The scenario's document.", body = crate::openapi::Scenario)),
+)]
+pub(super) async fn scenario(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name((id, n)): Name<(String, String)>,
+) -> Result<impl IntoResponse, Problem> {
+    let job = find(&state, owner.as_str(), &id).await?;
+    let unknown = || Problem::not_found("scenario in this job called", &n);
+    let number = n.parse().map_err(|_| unknown())?;
+    let (_, document) = state.store.scenario(job.id, number).await.map_err(database)?.ok_or_else(unknown)?;
+    Ok(([(header::CONTENT_TYPE, "application/json")], document))
 }
 
 /// The samples of one scenario, also while others are still computed.

@@ -8,6 +8,7 @@ mod events;
 mod files;
 mod guard;
 mod jobs;
+mod page;
 mod requests;
 mod support;
 mod webhooks;

@@ -1,6 +1,7 @@
 // <scheme-card>: one control scheme's standing: shown or not, how its run ended, how long it took, its trajectory hash.
 
 import { element, swatch } from "../dom.js";
+import { infoButton } from "../explain/info.js";
 import { formatNumber, formatSeconds } from "../format.js";
 import { strings } from "../strings/index.js";
 
@@ -35,11 +36,17 @@ export class SchemeCard extends HTMLElement {
     this.#hash = element("button", { type: "button", class: "hash", hidden: true, onclick: () => this.#copy() });
     this.replaceChildren(
       element("label", { class: "scheme-name" }, this.#toggle, swatch(scheme), element("span", {}, scheme.name)),
+      infoButton("scheme", scheme.id),
       this.#outcome,
       this.#bar,
       this.#stop,
       this.#hash,
     );
+  }
+
+  /** Whether its curves are shown. */
+  set shown(shown) {
+    this.#toggle.checked = shown;
   }
 
   /** A run under way: only worth a bar when it takes its time. */

@@ -2,6 +2,7 @@
 
 import "../elements/number-field.js";
 import { element, swatch, symbol } from "../dom.js";
+import { infoButton } from "../explain/info.js";
 import { withValueAt } from "../pointer.js";
 import { linear, logarithmic } from "../scale.js";
 import { strings } from "../strings/index.js";
@@ -117,12 +118,14 @@ function buildGain(gain, scheme, robot, laboratory, fields) {
     fields.push({ field, pointer });
     return field;
   });
+  const info = infoButton("gain", `${scheme.id}/${gain.name}`);
   if (gain.shape === "parameter") {
-    return foldedGroup(gain.symbol, strings.eighteen(rows.length), [element("p", { class: "help" }, gain.meaning), ...rows]);
+    const help = element("p", { class: "help" }, gain.meaning, info);
+    return foldedGroup(gain.symbol, strings.eighteen(rows.length), [help, ...rows]);
   }
   const head = single
-    ? element("p", { class: "gain-meaning" }, gain.meaning)
-    : element("p", { class: "gain-meaning" }, element("strong", {}, symbol(gain.symbol)), " ", gain.meaning);
+    ? element("p", { class: "gain-meaning" }, gain.meaning, info)
+    : element("p", { class: "gain-meaning" }, element("strong", {}, symbol(gain.symbol)), " ", gain.meaning, info);
   return element("div", { class: `gain ${gain.shape}`, role: "group", "aria-label": `${gain.symbol}: ${gain.meaning}` }, head, rows);
 }
 

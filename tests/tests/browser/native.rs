@@ -54,3 +54,13 @@ pub fn field_value(page: &Page<'_>, field: &str) -> Result<f64> {
 pub fn gain_field(scheme: Scheme, pointer: &str) -> String {
     format!("[role=tabpanel][data-scheme={}] number-field[data-pointer=\"{pointer}\"]", scheme.id())
 }
+
+/// Puts a field's slider at a position, as a hand does that lets go at once.
+pub fn slide(page: &Page<'_>, field: &str, position: i32) -> Result<()> {
+    page.run(
+        "const slider = document.querySelector(arguments[0] + ' input[type=range]'); slider.value = arguments[1]; \
+         slider.dispatchEvent(new Event('input', { bubbles: true }))",
+        &[json!(field), json!(position)],
+    )?;
+    page.ready()
+}

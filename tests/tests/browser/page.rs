@@ -2,7 +2,7 @@
 
 use crate::bench::Bench;
 use anyhow::{Context, Result, bail};
-use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand};
+use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand, WindowHandle};
 use fantoccini::{Client, ClientBuilder};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
@@ -18,6 +18,15 @@ pub enum Screen {
     Desktop,
     /// 390 px wide, fingers, two device pixels a pixel.
     Phone,
+}
+
+/// What the browser has for 3-D graphics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Graphics {
+    /// No WebGL: quiet, and nothing competes for the processor.
+    Off,
+    /// WebGL, drawn by the processor.
+    Software,
 }
 
 /// An open page.
@@ -49,7 +58,12 @@ impl WebDriverCompatibleCommand for Command {
 impl<'a> Page<'a> {
     /// Opens a browser and the page in it, and waits until its first results are drawn.
     pub fn open(bench: &'a Bench, screen: Screen) -> Result<Self> {
-        let page = Self::blank(bench, screen)?;
+        Self::open_with(bench, screen, Graphics::Off)
+    }
+
+    /// The same with 3-D graphics, or without.
+    pub fn open_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
+        let page = Self::blank_with(bench, screen, graphics)?;
         page.visit()?;
         page.ready()?;
         Ok(page)
@@ -57,16 +71,55 @@ impl<'a> Page<'a> {
 
     /// Opens a browser with nothing in it.
     pub fn blank(bench: &'a Bench, screen: Screen) -> Result<Self> {
+        Self::blank_with(bench, screen, Graphics::Off)
+    }
+
+    fn blank_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
         let profile = tempfile::tempdir()?;
         let mut builder = ClientBuilder::new(HttpConnector::new());
-        builder.capabilities(capabilities(&profile, screen));
+        builder.capabilities(capabilities(&profile, screen, graphics));
         let client = bench.runtime.block_on(builder.connect(&bench.driver.url)).context("cannot open a browser")?;
         Ok(Self { bench, client, _profile: profile })
     }
 
     /// Goes to the page.
     pub fn visit(&self) -> Result<()> {
-        Ok(self.bench.runtime.block_on(self.client.goto(&self.bench.server.url))?)
+        self.go(&self.bench.server.url)
+    }
+
+    /// Goes to an address.
+    pub fn go(&self, url: &str) -> Result<()> {
+        Ok(self.bench.runtime.block_on(self.client.goto(url))?)
+    }
+
+    /// The tab that everything here means.
+    pub fn tab(&self) -> Result<WindowHandle> {
+        Ok(self.bench.runtime.block_on(self.client.window())?)
+    }
+
+    /// Opens another tab at an address; from now on everything here means that one.
+    pub fn open_tab(&self, url: &str) -> Result<()> {
+        let tab = self.bench.runtime.block_on(self.client.new_window(true))?.handle;
+        self.switch_to(&tab)?;
+        self.go(url)
+    }
+
+    /// From now on everything here means this tab.
+    pub fn switch_to(&self, tab: &WindowHandle) -> Result<()> {
+        Ok(self.bench.runtime.block_on(self.client.switch_to_window(tab.clone()))?)
+    }
+
+    /// Runs a script's body in every page that is opened from now on, before any of its own scripts.
+    pub fn before_each_page(&self, script: &str) -> Result<()> {
+        self.devtools("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": script }))?;
+        Ok(())
+    }
+
+    /// Goes to a path of the page's server, such as `#1.…`, and waits until its results are drawn.
+    pub fn visit_path(&self, path: &str) -> Result<()> {
+        let url = format!("{}/{path}", self.bench.server.url.trim_end_matches('/'));
+        self.bench.runtime.block_on(self.client.goto(&url))?;
+        self.ready()
     }
 
     /// Reloads the page and waits until its results are drawn.
@@ -156,7 +209,7 @@ impl Drop for Page<'_> {
     }
 }
 
-fn capabilities(profile: &TempDir, screen: Screen) -> Capabilities {
+fn capabilities(profile: &TempDir, screen: Screen, graphics: Graphics) -> Capabilities {
     let mut arguments: Vec<String> = [
         "--headless",
         "--no-sandbox",
@@ -171,6 +224,11 @@ fn capabilities(profile: &TempDir, screen: Screen) -> Capabilities {
     ]
     .map(str::to_owned)
     .into();
+    let graphics = match graphics {
+        Graphics::Off => "--disable-3d-apis",
+        Graphics::Software => "--enable-unsafe-swiftshader",
+    };
+    arguments.push(graphics.to_owned());
     arguments.push(format!("--user-data-dir={}", profile.path().display()));
     let mut options = json!({ "args": arguments });
     if screen == Screen::Phone {

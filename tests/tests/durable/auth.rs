@@ -8,12 +8,13 @@ use serde_json::json;
 use std::time::Duration;
 
 /// What may be asked about a job, by method and what follows its path.
-const QUESTIONS: [(&str, &str); 8] = [
+const QUESTIONS: [(&str, &str); 9] = [
     ("GET", ""),
     ("GET", "/result"),
     ("GET", "/result/series"),
     ("GET", "/result/figures/tracking_errors.svg"),
     ("GET", "/result/figures/tracking_errors.png"),
+    ("GET", "/scenarios/0"),
     ("GET", "/events"),
     ("POST", "/cancel"),
     ("DELETE", ""),

@@ -1,6 +1,15 @@
 // The playground's own texts: frame, setup, gains, figures, tables.
 
 export const page = {
+  titles: {
+    playground: "adaptarm: adaptive control of a robot arm, live",
+    jobs: "adaptarm: jobs",
+  },
+  descriptions: {
+    playground:
+      "Three adaptive controllers on a simulated CRS A465 robot arm: change any gain and see errors, torques and estimates follow.",
+    jobs: "Simulations of a robot arm that this server runs: their progress and their results.",
+  },
   skip: "Skip to the results",
   tagline: "Adaptive control of a robot arm, live",
   intro:
@@ -18,6 +27,7 @@ export const page = {
   gains: "Gains",
   results: "Results",
   tables: "Tables",
+  language: "Language",
   themeDark: "Dark theme",
   themeLight: "Light theme",
 
@@ -94,7 +104,7 @@ export const page = {
   settlingNote: (e, de) => `Settled: |e| stays within ${e}°, |ė| within ${de}°/s. A dash means never, or does not apply.`,
 
   colophon: (version) =>
-    `adaptarm core ${version}. Computed in this browser by the same Rust core as on the server; nothing is sent anywhere.`,
+    `adaptarm core ${version}. Computed in this browser by the same Rust core as on the server. Nothing is sent anywhere, unless you run it on the server.`,
   moduleMissing: (reason) =>
     `The simulation module did not load (${reason}). If you serve this page from source, run “cargo xtask dist” and reload.`,
   workerRestarted: "A background worker stopped and was restarted; its run was started again.",

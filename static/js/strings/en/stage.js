@@ -1,3 +1,40 @@
 // Texts: the arm and its playback.
 
-export const stage = {};
+export const stage = {
+  title: "The arm",
+  mode: "Arms to show",
+  one: "One arm",
+  race: "Side by side",
+  scheme: "Scheme",
+  errors: "Errors drawn",
+  errorTimes: (times) => (times === 1 ? "as they are" : `× ${times}`),
+  zoomIn: "Nearer",
+  zoomOut: "Farther",
+  resetView: "Reset the view",
+  legend: "Solid: the arm. See-through: where it should be. Lines: the way of its tip.",
+  hint: "Drag or arrow keys turn the view, Ctrl and wheel or + and − zoom, 0 resets, space plays.",
+  kind: "3-D view",
+  kindFlat: "drawing",
+  nothing: "No scheme is shown: choose one above.",
+  waiting: "no samples yet",
+  tipOff: (millimetres) => `tip ${millimetres} mm off`,
+  beyondLimits: "beyond the joint limits",
+  nowhere: (scheme) => `${scheme}: no samples.`,
+  where: (scheme, x, y, z, millimetres) =>
+    `${scheme}: tip at x ${x}, y ${y}, z ${z} m, ${millimetres} mm from where it should be.`,
+  atTime: (seconds, arms) => `At ${seconds} s. ${arms}`,
+  side: "from the side",
+  top: "from above",
+  flat: (reason) => `Drawn flat, because the 3-D view is not available: ${reason}.`,
+  lost: "The graphics were interrupted; the picture comes back as soon as they do.",
+  notRestored: "the graphics were interrupted and did not come back",
+
+  transport: "Playback",
+  play: "Play",
+  pause: "Pause",
+  position: "Time",
+  ofTime: (now, end) => `${now} s of ${end} s`,
+  clock: (now, end) => `${now} / ${end} s`,
+  speed: "Speed",
+  times: (factor) => `${factor} ×`,
+};

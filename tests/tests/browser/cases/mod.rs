@@ -1,16 +1,33 @@
 //! The cases, by name.
 
+mod accessibility;
 mod appearance;
+mod arm;
+pub mod benchmark;
+mod compare;
+mod explain;
 mod exports;
 mod figures;
+mod gains_said;
 mod identity;
 mod input;
+mod jobs;
 mod keyboard;
+mod language;
 mod latency;
+mod links;
 mod long_runs;
+mod look;
+mod memory;
+mod offline;
 mod pinned;
 mod resilience;
+mod server_run;
 mod sliders;
+mod tour;
+mod transfer;
+
+pub use accessibility::axe;
 
 use crate::bench::Bench;
 use anyhow::Result;
@@ -49,7 +66,76 @@ pub const ALL: &[(&str, Case)] = &[
         long_runs::a_long_run_is_drawn_while_it_computes_and_can_be_stopped,
     ),
     ("a_stopped_run_can_be_started_again", long_runs::a_stopped_run_can_be_started_again),
+    ("the_server_gives_the_bits_that_the_browser_has", server_run::the_server_gives_the_same_bits),
+    ("other_settings_than_the_submitted_ones_are_explained", server_run::other_settings_are_explained),
+    ("a_run_on_the_server_survives_server_and_page", server_run::a_run_survives_server_and_page),
+    ("a_server_that_is_gone_loses_nothing", server_run::a_server_that_is_gone_loses_nothing),
+    ("what_the_server_refuses_is_said", server_run::what_the_server_refuses_is_said),
+    ("a_server_that_wants_a_token_is_given_one", server_run::a_token_is_asked_for),
+    ("a_run_on_the_server_is_followed_without_a_stream", server_run::a_run_is_followed_without_a_stream),
+    ("a_phone_shows_the_run_on_the_server", server_run::a_phone_shows_the_run_on_the_server),
+    ("the_jobs_page_lists_filters_cancels_and_deletes", jobs::the_jobs_page_lists_filters_cancels_and_deletes),
+    ("a_job_shows_its_results_and_opens_in_the_playground", jobs::a_job_opens_in_the_playground),
+    ("a_study_is_submitted_by_hand", jobs::a_study_is_submitted_by_hand),
+    ("the_jobs_page_fits_a_phone", jobs::the_jobs_page_fits_a_phone),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),
+    ("every_change_can_be_undone_and_a_drag_is_one", compare::every_change_can_be_undone),
+    ("the_history_survives_a_reload", compare::the_history_survives_a_reload),
+    ("pinned_runs_are_compared_kept_and_computed_again", compare::pinned_runs_are_compared_and_kept),
+    ("a_pin_with_other_bits_says_so_and_there_is_no_seventh", compare::other_bits_and_a_seventh_pin_are_said),
+    ("a_pinned_run_is_drawn_beside_the_new_one", compare::a_pinned_run_is_drawn_beside_the_new_one),
+    ("a_slider_does_not_wait_for_pins", compare::a_slider_does_not_wait_for_pins),
+    ("a_link_opens_the_same_bits_in_a_fresh_profile", links::a_link_opens_the_same_bits_in_a_fresh_profile),
+    ("back_and_reload_keep_their_settings", links::back_and_reload_keep_their_settings),
+    ("links_of_version_1_are_read_forever", links::links_of_version_1_are_read_forever),
+    ("a_broken_link_changes_nothing_and_says_why", links::a_broken_link_changes_nothing),
+    ("a_broken_file_changes_nothing_and_says_why", links::a_broken_file_changes_nothing),
+    ("exported_files_open_to_the_same_bits", links::exported_files_open_to_the_same_bits),
+    ("everything_has_an_info_button_with_an_equation", explain::everything_has_an_info_button_with_an_equation),
+    ("a_gain_is_tried_and_put_back", explain::a_gain_is_tried_and_put_back),
+    ("the_glossary_lists_every_symbol", explain::the_glossary_lists_every_symbol),
+    ("why_a_joint_is_worst_follows_the_run", explain::why_a_joint_is_worst_follows_the_run),
+    ("explanations_are_in_both_languages", explain::explanations_are_in_both_languages),
+    ("what_is_said_of_gains_is_so", gains_said::what_is_said_of_gains_is_so),
+    (
+        "the_tour_goes_by_keyboard_and_judges_as_the_replication",
+        tour::the_tour_goes_by_keyboard_and_judges_as_the_replication,
+    ),
+    ("escape_ends_the_tour_and_the_settings_come_back", tour::escape_ends_the_tour_and_the_settings_come_back),
+    ("the_tour_judges_longer_runs", tour::the_tour_judges_longer_runs),
+    (
+        "on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of",
+        tour::on_a_phone_the_tour_is_a_sheet_below_what_it_speaks_of,
+    ),
+    ("a_silent_worker_is_replaced", resilience::a_silent_worker_is_replaced),
+    ("axe_finds_nothing_on_the_playground", accessibility::axe_finds_nothing_on_the_playground),
+    ("axe_finds_nothing_on_the_other_pages", accessibility::axe_finds_nothing_on_the_other_pages),
+    (
+        "axe_finds_only_swagger_ui_s_own_on_the_api_s_page",
+        accessibility::axe_finds_only_swagger_ui_s_own_on_the_api_s_page,
+    ),
+    ("axe_would_find_a_mistake", accessibility::axe_would_find_a_mistake),
+    ("nothing_moves_for_who_asked_for_less_motion", accessibility::nothing_moves_for_who_asked_for_less_motion),
+    ("both_languages_have_the_same_texts", language::both_languages_have_the_same_texts),
+    ("switching_languages_keeps_everything_but_the_words", language::switching_keeps_everything_but_the_words),
+    ("the_browser_s_language_is_the_first_choice", language::the_browser_s_language_is_the_first_choice),
+    ("offline_the_page_works_after_the_server_is_gone", offline::it_works_after_the_server_is_gone),
+    ("a_new_version_replaces_the_old_one_whole", offline::a_new_version_replaces_the_old_one_whole),
+    ("another_tab_follows_to_the_new_version", offline::another_tab_follows_to_the_new_version),
+    ("the_page_can_be_installed", offline::it_can_be_installed),
+    ("a_first_visit_is_small", transfer::a_first_visit_is_small),
+    (
+        "after_two_hundred_random_moves_nothing_is_left_over",
+        memory::after_two_hundred_random_moves_nothing_is_left_over,
+    ),
+    ("the_main_page_looks_as_approved", look::the_main_page_looks_as_approved),
+    ("a_change_of_looks_would_be_seen", look::a_change_of_looks_would_be_seen),
+    ("three_arms_are_drawn_side_by_side", arm::three_arms_are_drawn_side_by_side),
+    ("the_arm_plays_and_is_scrubbed_by_keyboard", arm::the_arm_plays_and_is_scrubbed_by_keyboard),
+    ("the_view_of_the_arm_turns_and_zooms_within_limits", arm::the_view_turns_and_zooms_within_limits),
+    ("without_webgl_the_arm_is_drawn_flat", arm::without_webgl_the_arm_is_drawn_flat),
+    ("a_lost_graphics_context_comes_back_or_is_explained", arm::a_lost_context_comes_back_or_is_explained),
+    ("the_arm_takes_little_of_the_main_thread", arm::the_arm_takes_little_of_the_main_thread),
 ];

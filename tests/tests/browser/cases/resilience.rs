@@ -43,20 +43,33 @@ pub fn a_missing_module_is_explained(bench: &Bench) -> Result<()> {
 }
 
 pub fn a_dead_worker_is_replaced(bench: &Bench) -> Result<()> {
+    // In the middle of a run, the worker ends and the browser reports an error.
+    let report = "worker.dispatchEvent(new ErrorEvent('error', { message: 'killed', cancelable: true }));";
+    workers_end(bench, report)
+}
+
+pub fn a_silent_worker_is_replaced(bench: &Bench) -> Result<()> {
+    // The browser took the worker away, for its memory say, and tells nobody.
+    workers_end(bench, "")
+}
+
+/// Ends all workers in the middle of a run; the run must be started again, and its result be the right one.
+fn workers_end(bench: &Bench, report: &str) -> Result<()> {
     let page = Page::blank(bench, Screen::Desktop)?;
-    let spy = "window.workers = []; const Real = Worker; \
-        window.Worker = class extends Real { constructor(...all) { super(...all); window.workers.push(this); } }";
-    page.devtools("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": spy }))?;
+    page.before_each_page(
+        "window.workers = []; const Real = Worker; \
+         window.Worker = class extends Real { constructor(...all) { super(...all); window.workers.push(this); } }",
+    )?;
     page.visit()?;
     page.ready()?;
-    // In the middle of a run, the worker ends and the browser reports an error.
-    let kill = "const slider = document.querySelector(arguments[0] + ' input[type=range]'); \
-        slider.value = 30; slider.dispatchEvent(new Event('input', { bubbles: true })); \
-        for (const worker of [...window.workers]) { worker.terminate(); \
-            worker.dispatchEvent(new ErrorEvent('error', { message: 'killed', cancelable: true })); }";
+    let kill = format!(
+        "const slider = document.querySelector(arguments[0] + ' input[type=range]'); \
+         slider.value = 30; slider.dispatchEvent(new Event('input', {{ bubbles: true }})); \
+         for (const worker of [...window.workers]) {{ worker.terminate(); {report} }}"
+    );
     let pointer = "/scheme/gains/k_v/0";
     let field = gain_field(Scheme::Proposed, pointer);
-    page.run(kill, &[json!(field)])?;
+    page.run(&kill, &[json!(field)])?;
     page.ready()?;
     let notices = page.run("return document.querySelector('#notices').textContent", &[])?;
     ensure!(notices.as_str().is_some_and(|text| text.contains("restarted")), "nothing is said: {notices}");

@@ -1,0 +1,44 @@
+// Files of a scenario to keep. Plain links where no token is needed; with one, fetched and saved from memory.
+
+import { address, send, token } from "../api.js";
+import { element } from "../dom.js";
+import { strings } from "../strings/index.js";
+import { figurePath } from "./figures.js";
+import { showError } from "./message.js";
+
+const texts = strings.server;
+const KEEP_MS = 60_000;
+
+/** Links to the files of the scenario number `n` of the job `id`; errors go to `failure`. */
+export function buildDownloads(id, n, figure, failure) {
+  const series = (format) => `jobs/${id}/result/series?scenario=${n}&format=${format}`;
+  const base = `adaptarm-${id.slice(0, 13)}-${n + 1}`;
+  const files = [
+    ["csv", series("csv"), `${base}.csv`],
+    ["npz", series("npz"), `${base}.npz`],
+    ["parquet", series("parquet"), `${base}.parquet`],
+    ["svg", figurePath(id, n, figure, "svg"), `${base}-${figure}.svg`],
+    ["png", figurePath(id, n, figure, "png"), `${base}-${figure}.png`],
+    ["scenario", `jobs/${id}/scenarios/${n}`, `${base}.json`],
+    ["result", `jobs/${id}/result`, `adaptarm-${id.slice(0, 13)}.json`],
+  ];
+  const link = ([kind, path, name]) => {
+    const node = element("a", { href: address(path), download: name, "data-download": kind }, texts.downloadNames[kind]);
+    node.addEventListener("click", (event) => {
+      if (token() !== null) {
+        event.preventDefault();
+        fetchFile(path, name).catch((error) => showError(failure, error));
+      }
+    });
+    return element("li", {}, node);
+  };
+  return element("nav", { class: "downloads", "aria-label": texts.downloads }, element("h3", {}, texts.downloads), element("ul", {}, files.map(link)));
+}
+
+async function fetchFile(path, name) {
+  // Large files take their time: no limit but the reader's patience.
+  const response = await send(path, { signal: new AbortController().signal });
+  const url = URL.createObjectURL(await response.blob());
+  element("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), KEEP_MS);
+}

@@ -1,0 +1,93 @@
+// A figure of a scenario as the server draws it, with a choice of which.
+
+import { address, send, token } from "../api.js";
+import { element } from "../dom.js";
+import { strings } from "../strings/index.js";
+import { schemeName } from "./schemes.js";
+
+const texts = strings.server;
+/** Natural size of the server's figures, so that nothing jumps when one arrives. */
+const SIZE = { width: 900, height: 620 };
+
+export class FigurePicture {
+  node = element("figure", { class: "server-figure" });
+  /** The chosen figure's name. */
+  figure = Object.keys(texts.figures)[0];
+  #id;
+  #n = 0;
+  #report = null;
+  #url = null;
+  #choice = element("select", { id: "figure-choice" });
+  #picture = element("img", { ...SIZE });
+  #missing = element("p", { class: "field-error", role: "status" });
+
+  /** Figures of the job `id`; `chosen` is called when another one is chosen. */
+  constructor(id, chosen) {
+    this.#id = id;
+    this.#choice.addEventListener("change", () => {
+      this.figure = this.#choice.value;
+      this.#load();
+      chosen();
+    });
+    this.#picture.addEventListener("error", () => this.#failed());
+    const label = element("label", { class: "filter", for: this.#choice.id }, element("span", {}, texts.figure), this.#choice);
+    // Narrower than it can be read at, it scrolls within its own box.
+    const box = element("div", { class: "picture-box", tabindex: "0", role: "group", "aria-label": texts.figure }, this.#picture);
+    this.node.append(element("figcaption", {}, label), this.#missing, box);
+  }
+
+  /** Shows the chosen figure of the scenario number `n`. */
+  show(n, report) {
+    this.#n = n;
+    this.#report = report;
+    // Only a scheme with an observer has its errors.
+    const names = Object.keys(texts.figures).filter((name) => name !== "observer_errors" || report.z_peak_deg);
+    this.figure = names.includes(this.figure) ? this.figure : names[0];
+    this.#choice.replaceChildren(...names.map((name) => element("option", { value: name }, texts.figures[name])));
+    this.#choice.value = this.figure;
+    this.#load();
+  }
+
+  /** Lets go of the picture. */
+  stop() {
+    URL.revokeObjectURL(this.#url);
+    this.#url = null;
+  }
+
+  async #load() {
+    const { scheme, trajectory_hash } = this.#report;
+    const path = figurePath(this.#id, this.#n, this.figure, "svg");
+    const key = `${path} ${trajectory_hash}`;
+    if (this.#picture.dataset.key === key) {
+      return;
+    }
+    this.#picture.dataset.key = key;
+    this.#picture.alt = texts.figureAlt(texts.figures[this.figure], this.#n + 1, schemeName(scheme));
+    this.#missing.textContent = "";
+    this.stop();
+    if (token() === null) {
+      this.#picture.src = address(path);
+      return;
+    }
+    // An image cannot carry a token.
+    try {
+      const blob = await (await send(path)).blob();
+      if (this.#picture.dataset.key === key) {
+        this.#url = URL.createObjectURL(blob);
+        this.#picture.src = this.#url;
+      }
+    } catch {
+      this.#failed();
+    }
+  }
+
+  #failed() {
+    this.#missing.textContent = texts.figureMissing;
+    delete this.#picture.dataset.key;
+  }
+}
+
+/** Path of a figure below the API's root. */
+export function figurePath(id, n, figure, format) {
+  return `jobs/${id}/result/figures/${figure}.${format}?scenario=${n}`;
+}

@@ -1,0 +1,120 @@
+//! The page's speed as `cargo xtask bench` prints it: a slider's way to the screen, the longest task while dragging, a first
+//! visit, its size. Limits stand beside; timing fails nothing, because machines differ and others may use this one.
+
+use super::transfer;
+use crate::bench::Bench;
+use crate::page::{Page, Screen};
+use anyhow::{Context, Result, ensure};
+use serde_json::{Value, json};
+
+const MOVES: usize = 60;
+const WARM_UP: usize = 5;
+const VISITS: usize = 7;
+const DRAG: u32 = 120;
+
+/// Moves the friction's slider, which runs all three schemes, and answers with two times: until the figures are on their
+/// canvases, and until the frame that shows them has ended.
+const MOVE: &str = "const [step, done] = arguments; const root = document.documentElement; \
+    const slider = document.querySelector('#setup [data-pointer=\"/plant/friction/width_rad_s\"] input[type=range]'); \
+    const { port1, port2 } = new MessageChannel(); const start = performance.now(); let drawn; \
+    port1.onmessage = () => done([drawn, performance.now() - start, Number(root.dataset.lastLatencyMs)]); \
+    new MutationObserver((_, observer) => { if (root.dataset.state !== 'ready') return; \
+        observer.disconnect(); drawn = performance.now() - start; port2.postMessage(null); \
+    }).observe(root, { attributes: true, attributeFilter: ['data-state'] }); \
+    slider.value = Number(slider.value) + step; slider.dispatchEvent(new Event('input', { bubbles: true }))";
+
+/// Drags at the rate of a screen's frames and answers with the lengths of tasks of 50 ms and more on the main thread.
+const DRAG_ALONG: &str = "const [moves, done] = arguments; const tasks = []; let n = 0; \
+    const observer = new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({ duration }) => duration))); \
+    observer.observe({ type: 'longtask' }); \
+    const slider = document.querySelector('#setup [data-pointer=\"/plant/friction/width_rad_s\"] input[type=range]'); \
+    const timer = setInterval(() => { slider.value = 40 * Math.sin(n / 10); \
+        slider.dispatchEvent(new Event('input', { bubbles: true })); \
+        if (++n === moves) { clearInterval(timer); setTimeout(() => { observer.disconnect(); done(tasks); }, 1000); } }, 16)";
+
+/// Notes when the first results were on the screen.
+const FIRST_READY: &str = "new MutationObserver((_, observer) => { \
+        if (document.documentElement?.dataset.state !== 'ready') return; \
+        observer.disconnect(); const { port1, port2 } = new MessageChannel(); \
+        port1.onmessage = () => { window.firstReady = performance.now(); }; port2.postMessage(null); \
+    }).observe(document, { attributes: true, childList: true, subtree: true, attributeFilter: ['data-state'] })";
+
+/// Measures everything and prints it as a table.
+pub fn run(bench: &Bench) -> Result<()> {
+    println!("The page in Chromium, default study, 12 s at 1 ms, three schemes, {} processors", processors());
+    println!("{:<44}{:>10}{:>10}{:>10}{:>10}", "", "median", "p95", "worst", "limit");
+    slider(bench)?;
+    dragging(bench)?;
+    first_visit(bench)
+}
+
+fn slider(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let (mut canvas, mut frame, mut told) = (Vec::new(), Vec::new(), Vec::new());
+    for n in 0..WARM_UP + MOVES {
+        // Never the same value twice in a row, and no pattern that caches could know.
+        let step = [3, -5, 4, -2, 6, -6][n % 6];
+        let times = page.run_async(MOVE, &[json!(step)])?;
+        if n >= WARM_UP {
+            for (at, list) in [&mut canvas, &mut frame, &mut told].into_iter().enumerate() {
+                list.push(times[at].as_f64().context("no time")?);
+            }
+        }
+    }
+    row("slider to canvases, by the page itself, ms", told, "");
+    row("slider to canvases, ms", canvas, "");
+    row("slider to the end of the frame, ms", frame, "40 / 70");
+    Ok(())
+}
+
+fn dragging(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let tasks = numbers(&page.run_async(DRAG_ALONG, &[json!(DRAG)])?)?;
+    let longest = tasks.iter().copied().fold(f64::NAN, f64::max);
+    let longest = if tasks.is_empty() { "below 50".to_owned() } else { format!("{longest:.0}") };
+    let what = format!("longest task of {DRAG} moves, ms ({} of 50 and more)", tasks.len());
+    println!("{what:<44}{:>10}{:>10}{longest:>10}{:>10}", "", "", 50);
+    Ok(())
+}
+
+fn first_visit(bench: &Bench) -> Result<()> {
+    let (mut paint, mut useful, mut sizes) = (Vec::new(), Vec::new(), None);
+    for _ in 0..VISITS {
+        let page = Page::blank(bench, Screen::Desktop)?;
+        page.before_each_page(FIRST_READY)?;
+        page.visit()?;
+        page.wait_for("return window.firstReady !== undefined")?;
+        let times = page.run(
+            "return [performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? null, window.firstReady]",
+            &[],
+        )?;
+        paint.push(times[0].as_f64().context("nothing was painted")?);
+        useful.push(times[1].as_f64().context("no time")?);
+        sizes = Some(transfer::measure(&page)?);
+    }
+    row("cold visit to first paint of content, ms", paint, "");
+    row("cold visit to first results drawn, ms", useful, "1500");
+    let (kinds, compressed) = sizes.context("no visit")?;
+    for (kind, bytes) in &kinds {
+        println!("{:<44}{:>10.1}", format!("transfer, {kind}, kB"), bytes / 1000.0);
+    }
+    let total = kinds.values().sum::<f64>() / 1000.0;
+    let note = if compressed { "" } else { " (uncompressed)" };
+    println!("{:<44}{total:>10.1}{:>30.0}", format!("transfer, total, kB{note}"), transfer::LIMIT / 1000.0);
+    ensure!(total > 10.0, "nothing was transferred");
+    Ok(())
+}
+
+fn row(what: &str, mut values: Vec<f64>, limit: &str) {
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+    println!("{what:<44}{:>10.1}{:>10.1}{:>10.1}{limit:>10}", at(0.5), at(0.95), at(1.0));
+}
+
+fn numbers(list: &Value) -> Result<Vec<f64>> {
+    list.as_array().and_then(|all| all.iter().map(Value::as_f64).collect()).context("not a list of numbers")
+}
+
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
