@@ -5,7 +5,7 @@ const NUMBERS = 8;
 const REACH = 0.35;
 
 /** Decades on a symmetric-logarithmic axis, as `draw_figure` documents it. */
-const DECADES = 4;
+const DECADES = 3;
 
 /** Panels from what `draw_figure` returns, eight numbers each; `symlog` says what the vertical axes are. */
 export function readPanels(numbers, symlog) {
@@ -50,7 +50,7 @@ export function pixelOfOrdinate({ top, bottom, atBottom, atTop, map }, value) {
   return share >= 0 && share <= 1 ? bottom - share * (bottom - top) : null;
 }
 
-/** Linear within c of zero, decades beyond; c is four decades below the power of ten at or above the larger end. */
+/** Linear within c of zero, decades beyond; c is three decades below the power of ten at or above the larger end. */
 function symmetric(low, high) {
   const c = 10 ** (Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high)))) - DECADES);
   return (y) => Math.asinh(y / (2 * c));
