@@ -118,7 +118,6 @@ function build(app) {
   laboratory.addEventListener("result", ({ detail: { scheme } }) => {
     const { results, generation } = laboratory;
     cards[scheme].result = results[scheme];
-    timeline.duration = state.valueAt(description.schemes[0].id, "/integration/duration_s");
     figures.redraw();
     const texts = () => {
       pendingText = null;
@@ -128,7 +127,7 @@ function build(app) {
     // In a task of their own behind the next frame: first the pixels.
     pendingText ??= requestAnimationFrame(() => setTimeout(texts));
     if (laboratory.isReady) {
-      figures.redraw(() => finished(laboratory, generation, description));
+      figures.redraw(() => finished(laboratory, generation, description), { atOnce: true });
     }
   });
 

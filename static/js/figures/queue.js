@@ -25,17 +25,16 @@ export class DrawQueue {
     };
   }
 
-  /** Draws what is stale in the next frame. */
-  ask() {
-    if (!this.#continued) {
+  /** Draws what is stale in the next frame, or `atOnce`; calls `after` once every card in view shows the newest. */
+  ask(after, atOnce = false) {
+    if (after) {
+      this.#after.push(after);
+    }
+    if (atOnce) {
+      this.#slice();
+    } else if (!this.#continued) {
       this.#frame ??= requestAnimationFrame(() => this.#slice());
     }
-  }
-
-  /** Draws what is stale now; calls `after` once every card in view shows the newest. */
-  hurry(after) {
-    this.#after.push(after);
-    this.#slice();
   }
 
   #slice() {

@@ -100,19 +100,18 @@ export class Figures {
     this.#redrawOnly((figure) => traits(figure).focus === true);
   }
 
-  /** Everything in view is drawn: in the next frame, or with `after` now; `after` is called when it is on the canvases. */
-  redraw(after) {
+  /**
+   * Everything in view is drawn: in the next frame, or `atOnce`, when nothing newer can be expected before it. Then `after`
+   * is called.
+   */
+  redraw(after, { atOnce = false } = {}) {
     for (const changed of this.#onRuns) {
       changed();
     }
     for (const card of this.#cards) {
       card.stale = true;
     }
-    if (after) {
-      this.#queue.hurry(after);
-    } else {
-      this.#queue.ask();
-    }
+    this.#queue.ask(after, atOnce);
   }
 
   #redrawOnly(concerned) {

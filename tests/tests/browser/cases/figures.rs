@@ -214,8 +214,9 @@ pub fn errors_are_seen_on_a_symmetric_logarithmic_axis(bench: &Bench) -> Result<
 
 pub fn figures_stay_sharp_at_any_pixel_ratio(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    for ratio in [2.0, 1.5, 1.0] {
-        let metrics = json!({ "width": 1440, "height": 1000, "deviceScaleFactor": ratio, "mobile": false });
+    // As zooming does it: the larger the pixels, the fewer of them fit into the window.
+    for (width, ratio) in [(1440, 2.0), (1200, 1.5), (1600, 1.0)] {
+        let metrics = json!({ "width": width, "height": 1000, "deviceScaleFactor": ratio, "mobile": false });
         page.devtools("Emulation.setDeviceMetricsOverride", &metrics)?;
         place(&page, LAYER)?;
         settle(&page)?;
