@@ -176,14 +176,14 @@ export function buildTour(app) {
   function verdictOf(claim) {
     const own = words.claims[claim.id];
     return [
-      element("p", { class: "tour-claim" }, own.claim ?? claim.claim),
+      element("p", { class: "tour-claim" }, own.claim),
       element(
         "p",
         { class: "badge", "data-verdict": claim.verdict, "data-claim": claim.id },
         words.verdicts[claim.verdict],
       ),
       element("p", {}, words.found(words.evidence(claim.evidence))),
-      element("p", { class: "note" }, words.criterion(own.criterion ?? claim.criterion)),
+      element("p", { class: "note" }, words.criterion(own.criterion)),
       element("p", {}, own.why),
     ];
   }

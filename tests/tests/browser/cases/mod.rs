@@ -97,7 +97,7 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_gain_is_tried_and_put_back", explain::a_gain_is_tried_and_put_back),
     ("the_glossary_lists_every_symbol", explain::the_glossary_lists_every_symbol),
     ("why_a_joint_is_worst_follows_the_run", explain::why_a_joint_is_worst_follows_the_run),
-    ("explanations_are_in_both_languages", explain::explanations_are_in_both_languages),
+    ("claims_and_findings_are_in_spanish", explain::claims_and_findings_are_in_spanish),
     ("what_is_said_of_gains_is_so", gains_said::what_is_said_of_gains_is_so),
     (
         "the_tour_goes_by_keyboard_and_judges_as_the_replication",

@@ -21,8 +21,8 @@ export const why = {
     "de una articulación es más o menos el par que falta dividido por K Λ.",
   balance: (joint, missing, stiffness) =>
     `En la articulación ${joint} la realimentación tuvo que dar ${missing} N·m (media cuadrática) y tira con K Λ = ${stiffness} N·m/rad.`,
-  heaviest: () => "Es la articulación a la que más par le falta.",
-  softest: () => "Es la articulación con la realimentación más blanda.",
+  heaviest: "Es la articulación a la que más par le falta.",
+  softest: "Es la articulación con la realimentación más blanda.",
   both: "Es a la que más par le falta y la de realimentación más blanda.",
   neither: "A otra le falta más par y otra es más blanda; decide el cociente de ambos.",
   largestPart: (joint, name, rms, total) =>
