@@ -20,7 +20,12 @@ pub(crate) struct Failure {
 impl Failure {
     /// A failure of the whole document or of the caller.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { pointer: String::new(), message: message.into(), problem: None }
+        Self::at("", message)
+    }
+
+    /// A failure at a place of a document.
+    pub fn at(pointer: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), message: message.into(), problem: None }
     }
 }
 

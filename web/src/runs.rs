@@ -22,10 +22,17 @@ pub(crate) struct ShownRun {
     /// Its torques, split; computed when first asked for.
     parts: OnceCell<TorqueParts>,
     /// Differs from that of every other run that was ever added: what is made from a run is current while this is.
+    #[cfg_attr(not(target_arch = "wasm32"), expect(dead_code, reason = "read only where something is drawn"))]
     pub revision: u64,
 }
 
 impl ShownRun {
+    /// The `revision`th run that is shown.
+    pub fn new(scenario: Scenario, recording: Recording, completed: bool, revision: u64) -> Self {
+        let theta = scenario.theta();
+        Self { scenario, recording, completed, theta, parts: OnceCell::new(), revision }
+    }
+
     /// Its torques, split into what they are spent on.
     pub fn torque_parts(&self) -> &TorqueParts {
         self.parts.get_or_init(|| self.scenario.torque_parts(&self.recording))
@@ -81,9 +88,7 @@ impl Runs {
         let recording = Recording::from_rows(columns, rows)
             .ok_or_else(|| Failure::new("the samples end in the middle of a row".to_owned()))?;
         self.added += 1;
-        let (theta, revision) = (scenario.theta(), self.added);
-        let run = ShownRun { scenario, recording, completed, theta, parts: OnceCell::new(), revision };
-        self.runs.insert(id.to_owned(), run);
+        self.runs.insert(id.to_owned(), ShownRun::new(scenario, recording, completed, self.added));
         Ok(())
     }
 

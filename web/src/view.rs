@@ -76,21 +76,22 @@ impl ViewDocument {
     /// Reads and checks a view.
     pub fn read(json: &str) -> Result<Self, Failure> {
         let view: Self = serde_json::from_str(json).map_err(|error| Failure::new(error.to_string()))?;
-        let at = |pointer: &str, message: String| Failure { pointer: pointer.to_owned(), message };
         if !(view.scale > 0.0 && view.scale.is_finite()) {
-            return Err(at("/scale", format!("{} is not a positive number", view.scale)));
+            return Err(Failure::at("/scale", format!("{} is not a positive number", view.scale)));
         }
         match (view.from_s, view.to_s) {
             (Some(from_s), Some(to_s)) if from_s >= to_s => {
-                Err(at("/to_s", format!("a window from {from_s} s to {to_s} s is empty")))
+                Err(Failure::at("/to_s", format!("a window from {from_s} s to {to_s} s is empty")))
             }
-            (Some(_), None) => Err(at("/to_s", "a window that starts must end".to_owned())),
-            (None, Some(to_s)) if to_s <= 0.0 => Err(at("/to_s", format!("a window from 0 s to {to_s} s is empty"))),
+            (Some(_), None) => Err(Failure::at("/to_s", "a window that starts must end")),
+            (None, Some(to_s)) if to_s <= 0.0 => {
+                Err(Failure::at("/to_s", format!("a window from 0 s to {to_s} s is empty")))
+            }
             _ => {
                 for (n, shown) in view.shown.iter().enumerate() {
                     if let Some(color) = shown.color.as_deref().filter(|color| rgb(color).is_none()) {
-                        return Err(at(
-                            &format!("/shown/{n}/color"),
+                        return Err(Failure::at(
+                            format!("/shown/{n}/color"),
                             format!("{color:?} is not a colour like #0054a6"),
                         ));
                     }

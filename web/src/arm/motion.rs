@@ -138,7 +138,7 @@ mod tests {
             let position = columns.start(Signal::Position);
             row[position..position + 3].copy_from_slice(&[second as f64, FRAC_PI_2, -FRAC_PI_2]);
         }
-        ShownRun { scenario, recording: Recording::from_rows(columns, rows).unwrap(), completed: true, revision: 1 }
+        ShownRun::new(scenario, Recording::from_rows(columns, rows).unwrap(), true, 1)
     }
 
     #[test]

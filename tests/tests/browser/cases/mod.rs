@@ -2,13 +2,13 @@
 
 mod accessibility;
 mod appearance;
-mod exports;
-mod figures;
+mod arm;
+pub mod benchmark;
 mod compare;
 mod explain;
+mod exports;
+mod figures;
 mod gains_said;
-pub mod benchmark;
-mod arm;
 mod identity;
 mod input;
 mod jobs;
