@@ -109,7 +109,7 @@ function verdict(worst, stiffness, missing) {
   if (lacksMost && isSoftest) {
     return words.both;
   }
-  return lacksMost ? words.heaviest(worst + 1) : isSoftest ? words.softest(worst + 1) : words.neither;
+  return lacksMost ? words.heaviest() : isSoftest ? words.softest() : words.neither;
 }
 
 /** What the estimates behind a part have come to; those that are far off first. */

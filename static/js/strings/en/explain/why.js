@@ -20,8 +20,8 @@ export const why = {
     "error of a joint is about the torque that is missing, divided by K Λ.",
   balance: (joint, missing, stiffness) =>
     `In joint ${joint} the feedback had to supply ${missing} N·m (root mean square) and pulls with K Λ = ${stiffness} N·m/rad.`,
-  heaviest: (joint) => `It is the joint that lacks most torque.`,
-  softest: (joint) => `It is the joint with the softest feedback.`,
+  heaviest: () => "It is the joint that lacks most torque.",
+  softest: () => "It is the joint with the softest feedback.",
   both: "It lacks most torque and has the softest feedback.",
   neither: "Another joint lacks more torque and another is softer; the quotient of the two decides.",
   largestPart: (joint, name, rms, total) =>
