@@ -38,7 +38,7 @@ export function buildPinned(panel, figures) {
   }
 
   panel.append(
-    element("div", { class: "pinned-head" }, element("label", { for: choice.id }, strings.figures.pinnedFigure), choice, toggle),
+    element("div", { class: "pinned-head" }, element("label", { for: choice.id }, strings.pinnedFigure), choice, toggle),
     card,
   );
   open(saved?.open !== false);
