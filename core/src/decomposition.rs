@@ -125,3 +125,80 @@ fn split<R: Robot<N, P>, const N: usize, const P: usize>(
     let acceleration = solve_symmetric(&inertia, torque - (gravity + coriolis + viscous + dry));
     [inertia * acceleration, coriolis, gravity, viscous, dry]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::FrictionSign;
+    use crate::regressor::model_torque;
+    use crate::robots::CrsA465;
+    use crate::scenario::{Scenario, Scheme};
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    type Arm = CrsA465;
+
+    fn vectors(limit: f64) -> impl Strategy<Value = Vector3<f64>> {
+        prop::array::uniform3(-limit..limit).prop_map(Vector3::from)
+    }
+
+    proptest! {
+        /// Each part is the equation's own term, told by the regressor instead; together they are the torque.
+        #[test]
+        fn parts_are_the_terms_of_the_equation_and_sum_to_the_torque(
+            q in vectors(3.1), v in vectors(4.0), torque in vectors(300.0),
+            scale in prop::collection::vec(0.8..1.2, 18), width in prop_oneof![Just(0.0), 0.001..0.1],
+        ) {
+            let theta = SVector::<f64, 18>::from_fn(|k, _| Arm::DATA.parameters[k].value * scale[k]);
+            let plant = Plant::<Arm, f64, 3, 18>::new(theta, FrictionSign::from_width(width));
+            let geometry = Arm::geometry(&q);
+            let (zero, sign) = (Vector3::zeros(), plant.friction_sign.of(&v));
+            let model = |u, v, a, sign| {
+                model_torque::<Arm, f64, 3, 18>(&Arm::regressor(&geometry, u, v, a, sign), theta.as_slice())
+            };
+            let acceleration = plant.acceleration(&geometry, &v, &sign, &torque);
+            let gravity = model(&zero, &zero, &zero, &zero);
+            let viscous = model(&zero, &v, &zero, &zero) - gravity;
+            let expected = [
+                model(&zero, &zero, &acceleration, &zero) - gravity,
+                model(&v, &v, &zero, &zero) - gravity - viscous,
+                gravity,
+                viscous,
+                model(&zero, &zero, &zero, &sign) - gravity,
+            ];
+            let parts = split(&plant, &q, &v, &torque);
+            let size = 1.0 + torque.amax() + v.amax() * 50.0;
+            for (part, expected) in parts.iter().zip(expected) {
+                prop_assert!((part - expected).amax() < 1e-11 * size, "{part} for {expected}");
+            }
+            let sum: Vector3<f64> = parts.iter().sum();
+            prop_assert!((sum - torque).amax() < 1e-12 * size, "{sum} for {torque}");
+        }
+    }
+
+    #[test]
+    fn along_a_run_the_parts_sum_to_what_was_recorded() {
+        for scheme in Scheme::ALL {
+            let mut document = scheme.paper();
+            (document.integration.duration_s, document.recording.samples) = (1.0, 100);
+            let scenario = Scenario::new(document).unwrap();
+            let recording = scenario.run().recording;
+            let parts = scenario.torque_parts(&recording);
+            assert_eq!(parts.len(), recording.len());
+            for joint in 0..3 {
+                for (sample, torque) in recording.signal(Signal::Torque, joint).enumerate() {
+                    let sum: f64 = parts.at(sample, joint).iter().sum();
+                    assert!((sum - torque).abs() < 1e-9 * torque.abs().max(1.0), "{sum} for {torque}");
+                }
+            }
+            // The velocity that friction sees is the one by which the angle moves.
+            let viscous = |sample| parts.at(sample, 0)[3] / CrsA465::DATA.parameters[10].value;
+            let angles: Vec<_> = recording.signal(Signal::Position, 0).collect();
+            let moved = (angles[51] - angles[49]) / 0.02;
+            assert!((viscous(50) - moved).abs() < 1e-3 * moved.abs().max(0.1), "{} for {moved}", viscous(50));
+            // At the waist nothing weighs.
+            assert_eq!(parts.rms_nm(100)[0][2], 0.0);
+            assert!(parts.rms_nm(100)[1][2] > 5.0);
+        }
+    }
+}

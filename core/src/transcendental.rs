@@ -36,7 +36,7 @@ const fn inverse_factorial(n: u32) -> f64 {
 }
 
 /// `Σ c_k z^k` in pairs, which leaves less to wait for than Horner's scheme.
-#[inline(always)]
+#[inline]
 fn series<T: Scalar, const K: usize>(c: [f64; K], z: T) -> T {
     let z2 = z * z;
     let pair = |k: usize| if k + 1 < K { T::splat(c[k]) + T::splat(c[k + 1]) * z } else { T::splat(c[k]) };
@@ -47,13 +47,13 @@ fn series<T: Scalar, const K: usize>(c: [f64; K], z: T) -> T {
     sum
 }
 
-#[inline(always)]
+#[inline]
 fn round<T: Scalar>(x: T) -> T {
     (x + T::splat(ROUNDING)) - T::splat(ROUNDING)
 }
 
 /// `(sin x, cos x)`; `x` in rad.
-#[inline(always)]
+#[inline]
 pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
     const SINE: [f64; 8] = [
         -inverse_factorial(3),
@@ -96,7 +96,7 @@ pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
 }
 
 /// `tanh x = t/(t + 2)` with `t = e^{2|x|} − 1`.
-#[inline(always)]
+#[inline]
 pub(crate) fn tanh<T: Scalar>(x: T) -> T {
     const CUBIC: [f64; 11] = [
         inverse_factorial(3),

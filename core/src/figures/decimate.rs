@@ -66,70 +66,77 @@ impl Columns {
     }
 }
 
-/// Drops points of a curve with rising x that lie within a tolerance of the straight line between those it keeps.
+/// Drops points that lie within a tolerance of the straight line between those it keeps.
 pub(super) struct Thinner<'a> {
     kept: &'a mut Vec<Point>,
     tolerance: f64,
-    /// Not kept yet; a line from the last kept point to here passes all between.
-    pending: Option<Point>,
-    /// Slopes of the lines from the last kept point that pass all points since.
+    /// Whether the curve may turn back; if not, x rises and the tolerance is one of y.
+    turns: bool,
+    /// Which way the line from the last kept point goes: its direction, a unit vector.
+    forward: Point,
+    /// Not kept yet: the point and how far forward it is. A line from the last kept point to here passes all between.
+    pending: Option<(Point, f64)>,
+    /// Slopes, against `forward`, of the lines from the last kept point that pass all points since.
     slopes: (f64, f64),
 }
 
 const ANY_SLOPE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 impl<'a> Thinner<'a> {
-    /// Appends to `kept`, which must be empty.
-    pub fn new(kept: &'a mut Vec<Point>, tolerance: f64) -> Self {
-        Self { kept, tolerance, pending: None, slopes: ANY_SLOPE }
+    /// For a curve with rising x; appends to `kept`, which must be empty.
+    pub fn rising(kept: &'a mut Vec<Point>, tolerance: f64) -> Self {
+        Self { kept, tolerance, turns: false, forward: (1.0, 0.0), pending: None, slopes: ANY_SLOPE }
+    }
+
+    /// For any curve.
+    pub fn turning(kept: &'a mut Vec<Point>, tolerance: f64) -> Self {
+        Self { turns: true, ..Self::rising(kept, tolerance) }
     }
 
     /// Takes the next point.
     #[inline]
     pub fn push(&mut self, point: Point) {
-        let Some(mut anchor) = self.kept.last().copied() else {
+        let Some(anchor) = self.kept.last().copied() else {
             return self.kept.push(point);
         };
-        if let Some(pending) = self.pending {
-            let slope = (point.1 - anchor.1) / (point.0 - anchor.0);
-            if !(slope >= self.slopes.0 && slope <= self.slopes.1) {
+        let mut step = (point.0 - anchor.0, point.1 - anchor.1);
+        if let Some((pending, reach)) = self.pending {
+            let (along, across) = self.turned(step);
+            let slope = across / along;
+            if along < reach || !(slope >= self.slopes.0 && slope <= self.slopes.1) {
                 self.kept.push(pending);
-                anchor = pending;
+                step = (point.0 - pending.0, point.1 - pending.1);
+                self.pending = None;
                 self.slopes = ANY_SLOPE;
             }
         }
-        let run = point.0 - anchor.0;
-        if run > 0.0 {
-            let rise = point.1 - anchor.1;
-            self.slopes.0 = self.slopes.0.max((rise - self.tolerance) / run);
-            self.slopes.1 = self.slopes.1.min((rise + self.tolerance) / run);
-            self.pending = Some(point);
+        if self.turns && self.pending.is_none() {
+            let length = (step.0 * step.0 + step.1 * step.1).sqrt();
+            if length <= 0.5 * self.tolerance {
+                return;
+            }
+            self.forward = (step.0 / length, step.1 / length);
+        }
+        let (along, across) = self.turned(step);
+        if along > 0.0 {
+            self.slopes.0 = self.slopes.0.max((across - self.tolerance) / along);
+            self.slopes.1 = self.slopes.1.min((across + self.tolerance) / along);
+            self.pending = Some((point, along));
         } else {
             self.kept.push(point);
-            self.pending = None;
-            self.slopes = ANY_SLOPE;
         }
+    }
+
+    /// A step as how far forward and how far aside.
+    #[inline]
+    fn turned(&self, (dx, dy): Point) -> Point {
+        let (x, y) = self.forward;
+        if self.turns { (dx * x + dy * y, dy * x - dx * y) } else { (dx, dy) }
     }
 
     /// Keeps the last point.
     pub fn finish(self) {
-        self.kept.extend(self.pending);
-    }
-}
-
-/// Drops points of any curve that are nearer than `tolerance` to the one kept before; the last stays.
-pub(super) fn thin_out(points: &mut Vec<Point>, tolerance: f64) {
-    let Some(end) = points.last().copied() else { return };
-    let mut last: Option<Point> = None;
-    points.retain(|point| {
-        let far = last.is_none_or(|last| (point.0 - last.0).abs().max((point.1 - last.1).abs()) >= tolerance);
-        if far {
-            last = Some(*point);
-        }
-        far
-    });
-    if points.last() != Some(&end) {
-        points.push(end);
+        self.kept.extend(self.pending.map(|(point, _)| point));
     }
 }
 
@@ -148,8 +155,10 @@ mod tests {
 
     fn thin(points: &[Point], tolerance: f64) -> Vec<Point> {
         let mut kept = Vec::new();
-        let mut thinner = Thinner::new(&mut kept, tolerance);
-        points.iter().for_each(|point| thinner.push(*point));
+        let mut thinner = Thinner::rising(&mut kept, tolerance);
+        for point in points {
+            thinner.push(*point);
+        }
         thinner.finish();
         kept
     }
@@ -205,15 +214,44 @@ mod tests {
         assert_eq!(thin(&step, 0.1), step);
     }
 
+    fn thin_turning(points: &[Point]) -> Vec<Point> {
+        let mut kept = Vec::new();
+        let mut thinner = Thinner::turning(&mut kept, 0.1);
+        for point in points {
+            thinner.push(*point);
+        }
+        thinner.finish();
+        kept
+    }
+
     #[test]
-    fn a_loop_keeps_its_shape_and_its_end() {
-        let mut points: Vec<_> = (0..1000).map(|n| (20.0 * f64::from(n).cos(), 20.0 * f64::from(n).sin())).collect();
-        points.extend([(3.0, 3.0), (3.01, 3.0)]);
-        thin_out(&mut points, 0.3);
-        assert_eq!(points.last(), Some(&(3.01, 3.0)));
-        assert!(points.len() > 900);
-        let mut still = vec![(1.0, 1.0); 50];
-        thin_out(&mut still, 0.3);
-        assert_eq!(still, [(1.0, 1.0)]);
+    fn a_spiral_keeps_its_shape() {
+        let spiral: Vec<_> = (0..20_000)
+            .map(|n| f64::from(n) * 0.002)
+            .map(|t| (100.0 + 4.0 * t * t.cos(), 100.0 + 2.0 * t * t.sin()))
+            .collect();
+        let kept = thin_turning(&spiral);
+        assert!(kept.len() < spiral.len() / 20, "{} points", kept.len());
+        // Both are followed from the start: every point is near the stretch that stands for it.
+        let distance = |p: Point, a: Point, b: Point| {
+            let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+            let share = (((p.0 - a.0) * dx + (p.1 - a.1) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+            f64::hypot(p.0 - a.0 - share * dx, p.1 - a.1 - share * dy)
+        };
+        let mut stretch = 0;
+        for point in spiral {
+            while distance(point, kept[stretch], kept[stretch + 1]) > 0.2 {
+                stretch += 1;
+                assert!(stretch + 1 < kept.len(), "{point:?} is far from the curve");
+            }
+        }
+        assert_eq!(stretch + 2, kept.len());
+    }
+
+    #[test]
+    fn a_line_there_and_back_keeps_its_turn() {
+        let there: Vec<_> = (0..=50).map(f64::from).chain((0..50).rev().map(f64::from)).map(|x| (x, x)).collect();
+        assert_eq!(thin_turning(&there), [(0.0, 0.0), (50.0, 50.0), (0.0, 0.0)]);
+        assert_eq!(thin_turning(&[(1.0, 1.0); 50]), [(1.0, 1.0)]);
     }
 }

@@ -103,3 +103,146 @@ fn entries<'a>(
     }
     entries
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::style::{Style, Theme};
+    use super::super::surface::Stroke;
+    use super::super::{Path, Texts};
+    use super::*;
+    use crate::robots::ROBOTS;
+    use crate::scenario::{Run, Scenario, Scheme};
+    use plotters_backend::{
+        BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+    };
+
+    /// Remembers what is drawn on it.
+    struct Sheet {
+        size: (u32, u32),
+        texts: Vec<String>,
+        curves: Vec<(Path, Stroke)>,
+    }
+
+    type Drawn = Result<(), DrawingErrorKind<std::io::Error>>;
+
+    impl DrawingBackend for Sheet {
+        type ErrorType = std::io::Error;
+        fn get_size(&self) -> (u32, u32) {
+            self.size
+        }
+        fn ensure_prepared(&mut self) -> Drawn {
+            Ok(())
+        }
+        fn present(&mut self) -> Drawn {
+            Ok(())
+        }
+        fn draw_pixel(&mut self, _: BackendCoord, _: BackendColor) -> Drawn {
+            Ok(())
+        }
+        fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, _: &S, _: bool) -> Drawn {
+            assert!(from.0 <= to.0 && from.1 <= to.1, "{from:?} {to:?}");
+            Ok(())
+        }
+        fn draw_text<S: BackendTextStyle>(&mut self, text: &str, _: &S, _: BackendCoord) -> Drawn {
+            self.texts.push(text.to_owned());
+            Ok(())
+        }
+    }
+
+    impl Surface for Sheet {
+        fn draw_curve(&mut self, path: &Path, stroke: Stroke) -> Drawn {
+            self.curves.push((path.clone(), stroke));
+            Ok(())
+        }
+    }
+
+    fn run(scheme: Scheme) -> Run {
+        let mut document = scheme.paper();
+        (document.integration.duration_s, document.recording.samples) = (0.2, 100);
+        Scenario::new(document).unwrap().run()
+    }
+
+    fn drawn(figure: Figure, size: (u32, u32), runs: &[PlottedRun<'_>], view: &View<'_>) -> (Sheet, Vec<PanelPlace>) {
+        let mut sheet = Sheet { size, texts: Vec::new(), curves: Vec::new() };
+        let places = draw(&mut sheet, figure, ROBOTS[0], runs, view).unwrap();
+        (sheet, places)
+    }
+
+    #[test]
+    fn places_are_where_the_curves_are() {
+        let run = run(Scheme::Proposed);
+        let theta = ROBOTS[0].theta();
+        let runs = [PlottedRun::new(Scheme::Proposed, &run.recording, true, &theta)];
+        for (size, scale) in [((600, 420), 1.0), ((1200, 840), 2.0), ((390, 300), 1.0), ((60, 40), 1.0), ((1, 1), 3.0)]
+        {
+            for figure in Figure::ALL {
+                let view = View { window_s: Some((0.05, 0.15)), ..View::whole(Style { theme: Theme::Dark, scale }) };
+                let (sheet, places) = drawn(figure, size, &runs, &view);
+                assert!(!places.is_empty());
+                for place in &places {
+                    assert!(place.left < place.right && place.top < place.bottom && place.y_bottom < place.y_top);
+                    if figure != Figure::PhasePlane {
+                        assert_eq!((place.x_left, place.x_right), (0.05, 0.15));
+                    }
+                }
+                let within = |(x, y): &(f64, f64)| {
+                    let holds = |place: &PanelPlace| {
+                        *x >= place.left && *x <= place.right && *y >= place.top && *y <= place.bottom
+                    };
+                    places.iter().any(holds)
+                };
+                let is_within = |path: &Path| path.pieces().flatten().all(within);
+                // After the legend's samples, all lines are within panels.
+                let mut lines = sheet.curves.iter().map(|(path, _)| path).skip_while(|path| !is_within(path));
+                assert!(lines.all(is_within), "{figure:?} {size:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_value_is_drawn_where_the_place_says() {
+        let run = run(Scheme::SlotineLi);
+        let runs = [PlottedRun::new(Scheme::SlotineLi, &run.recording, true, &[])];
+        let view = View::whole(Style { theme: Theme::Light, scale: 1.0 });
+        for axis in [AxisKind::Linear, AxisKind::Symlog] {
+            let (sheet, places) = drawn(Figure::TrackingErrors, (600, 420), &runs, &View { axis, ..view });
+            let place = places[1];
+            let threshold = 10.0_f64.powf(place.y_bottom.abs().max(place.y_top.abs()).log10().ceil() - 3.0);
+            let map = |y: f64| if axis == AxisKind::Symlog { (y / (2.0 * threshold)).asinh() } else { y };
+            let end = run.recording.signal(crate::recording::Signal::Error, 1).next_back().unwrap().to_degrees();
+            let share = (map(end) - map(place.y_bottom)) / (map(place.y_top) - map(place.y_bottom));
+            let expected = place.bottom + share * (place.top - place.bottom);
+            // Legend, then the joints.
+            let (x, y) = *sheet.curves[2].0.pieces().last().unwrap().last().unwrap();
+            assert!((x - place.right).abs() < 1e-9 && (y - expected).abs() < 1e-9, "{axis:?}: {y} for {expected}");
+        }
+    }
+
+    #[test]
+    fn runs_to_compare_with_are_paler_thinner_and_below() {
+        let run = run(Scheme::Proposed);
+        let live = PlottedRun::new(Scheme::Proposed, &run.recording, true, &[]);
+        let pinned = PlottedRun { faded: true, label: Some("before"), ..live };
+        let texts = Texts { time_axis: "tiempo [s]", ..Texts::default() };
+        let view = View { texts, ..View::whole(Style { theme: Theme::Light, scale: 1.0 }) };
+        let (sheet, _) = drawn(Figure::Torques, (600, 420), &[live, pinned], &view);
+        let widths: Vec<_> = sheet.curves.iter().map(|(_, stroke)| stroke.width).collect();
+        assert!(widths[0] > widths[1], "the legend keeps the caller's order");
+        assert!(widths[2] < widths[3], "the panel draws the live run last");
+        assert!(sheet.texts.iter().any(|text| text == "before") && sheet.texts.iter().any(|text| text == "tiempo [s]"));
+        assert!(!sheet.texts.iter().any(|text| text == "effort limit"), "a limit out of range has no legend");
+        let (sheet, _) = drawn(Figure::Voltages, (600, 420), &[live], &view);
+        assert!(sheet.texts.iter().any(|text| text == "supply limit"));
+    }
+
+    #[test]
+    fn an_empty_figure_has_its_axes() {
+        let view = View::whole(Style { theme: Theme::Light, scale: 1.0 });
+        for figure in Figure::ALL {
+            let (sheet, places) = drawn(figure, (600, 420), &[], &view);
+            assert!(
+                !places.is_empty() && sheet.curves.iter().all(|(path, _)| path.pieces().all(|piece| piece.len() < 3))
+            );
+        }
+    }
+}

@@ -36,6 +36,9 @@ pub enum Figure {
     TorqueParts,
 }
 
+/// Height of the legend and the time axis' title, layout pixels.
+const AROUND: f64 = 60.0;
+
 impl Figure {
     /// Every figure.
     pub const ALL: [Self; 14] = [
@@ -144,8 +147,6 @@ impl Figure {
             Self::ParameterErrorNorm => (1, 240.0),
             _ => (3, 140.0),
         };
-        /// Of the legend and the time axis.
-        const AROUND: f64 = 60.0;
         row * f64::from(u32::div_ceil(panels, self.columns(width) as u32)) + AROUND
     }
 

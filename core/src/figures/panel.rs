@@ -1,7 +1,7 @@
 //! How one panel looks: grid, labelled axes, limits, references and curves.
 
 use super::axes::{Axis, x_range};
-use super::decimate::{Columns, Point, Thinner, thin_out};
+use super::decimate::{Columns, Point, Thinner};
 use super::panels::{Panel, Reference};
 use super::path::{Frame, Path};
 use super::run::{PlottedRun, Quantity};
@@ -57,6 +57,8 @@ pub(super) struct Cell {
 #[derive(Default)]
 pub(super) struct Scratch {
     points: Vec<Point>,
+    /// Pixels of what a curve is drawn over, if not over time.
+    across: Vec<f64>,
     path: Path,
 }
 
@@ -220,22 +222,23 @@ fn trace<S: Surface>(
     scratch.path.clear();
     if let Some(x) = x {
         let rows = run.rows_within(plot.window);
-        scratch.points.reserve(rows.len());
-        run.visit(x, rows.clone(), |_, value| scratch.points.push((plot.x.pixel(value).clamp(-FAR, FAR), 0.0)));
-        let mut points = scratch.points.iter_mut();
+        scratch.across.clear();
+        run.visit(x, rows.clone(), |_, value| scratch.across.push(plot.x.pixel(value).clamp(-FAR, FAR)));
+        let mut across = scratch.across.iter();
+        let mut thinner = Thinner::turning(&mut scratch.points, tolerance);
         run.visit(y, rows, |_, value| {
-            if let Some(point) = points.next() {
-                point.1 = plot.y.pixel(value).clamp(-FAR, FAR);
+            let point = (across.next().copied().unwrap_or(f64::NAN), plot.y.pixel(value).clamp(-FAR, FAR));
+            if point.0.is_finite() && point.1.is_finite() {
+                thinner.push(point);
             }
         });
-        scratch.points.retain(|(x, y)| x.is_finite() && y.is_finite());
-        thin_out(&mut scratch.points, 3.0 * tolerance);
+        thinner.finish();
     } else {
         let (from_s, to_s) = plot.window;
         // On paper, where pixels are small, two columns per layout pixel will do.
         let width = plot.frame.right - plot.frame.left;
         let columns = width * (pen.style.scale.min(2.0) / pen.style.scale);
-        let mut thinner = Thinner::new(&mut scratch.points, tolerance);
+        let mut thinner = Thinner::rising(&mut scratch.points, tolerance);
         let mut keep = |point| thinner.push(pixel(point));
         let mut columns = Columns::new(from_s, to_s - from_s, columns.max(1.0));
         run.visit(y, run.rows_about(plot.window), |t, value| {

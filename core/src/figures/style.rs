@@ -101,10 +101,11 @@ pub const fn scheme_style(scheme: Scheme, theme: Theme) -> (Rgb, Dash) {
     (color, dash)
 }
 
-/// Widths of curves, layout pixels: of live runs, of those to compare with, of what is true or wanted.
+/// Widths of curves, layout pixels: of live runs, of those to compare with, of what is true or wanted. Where the browser
+/// draws without a graphics card, a line wider than one pixel of the device takes five times as long.
 const LIVE: f64 = 1.6;
-const FADED: f64 = 1.1;
-const REFERENCE: f64 = 1.1;
+const FADED: f64 = 1.0;
+const REFERENCE: f64 = 1.0;
 
 impl Line {
     /// Of a run.

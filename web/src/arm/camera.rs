@@ -66,6 +66,15 @@ mod tests {
     }
 
     #[test]
+    fn what_is_right_and_up_is_so_in_the_picture() {
+        let look = Camera { yaw_rad: 0.7, pitch_rad: 0.4, zoom: 1.0 }.look(1.3);
+        for (axis, direction) in [look.right, look.up].into_iter().enumerate() {
+            let moved = look.projection.apply(super::super::matrix::along(TARGET, 0.1, direction));
+            assert!(moved[axis] > 0.05 && moved[1 - axis].abs() < 1e-4, "{moved:?}");
+        }
+    }
+
+    #[test]
     fn nobody_gets_lost() {
         let lost = Camera { yaw_rad: 1e3, pitch_rad: -9.0, zoom: 1e9 }.look(1.0);
         assert!(lost.eye[2] > 0.0, "below the floor");

@@ -97,7 +97,7 @@ impl Mesh {
     pub fn link(&mut self, kind: Kind, shape: &Link) {
         let Link { from, upright, length, radii, thickness: [low, high], bevel } = *shape;
         let turn = ((radii[0] - radii[1]) / length).acos();
-        let half = corners(radii[0]) / 2;
+        let half = corners(radii[0]) / 4 * 2;
         // Round the first circle where the band lies on it, then round the second, then back to the start.
         let first = (0..=half).map(|n| (turn + (TAU - 2.0 * turn) * n as f32 / half as f32, 0));
         let second = (0..=half).map(|n| (turn * (2.0 * n as f32 / half as f32 - 1.0), 1));
@@ -114,11 +114,12 @@ impl Mesh {
         self.strip(kind, outline.iter().map(|&c| [at(c, bevel, low, -1.0), at(c, 0.0, inner_low, -1.0)]));
         self.strip(kind, outline.iter().map(|&c| [at(c, 0.0, inner_low, 0.0), at(c, 0.0, inner_high, 0.0)]));
         self.strip(kind, outline.iter().map(|&c| [at(c, 0.0, inner_high, 1.0), at(c, bevel, high, 1.0)]));
-        let [x, z] = place(0.5 * length, 0.0);
+        // Flat sides as bands across, from the first circle's far end to the second's: a fan would have slivers.
+        let across = (0..=half / 2).rev().map(|n| [outline[n], outline[half - n]]);
+        let across = across.chain((0..=half / 2).map(|n| [outline[2 * half + 1 - n], outline[half + 1 + n]]));
         for (y, lean) in [(low, -1.0), (high, 1.0)] {
-            let flat = |point: Vec3| (point, [0.0, lean, 0.0]);
-            let middle = flat([from[0] + x, y, from[1] + z]);
-            self.strip(kind, outline.iter().map(|&c| [middle, flat(at(c, bevel, y, lean).0)]));
+            let flat = |c| (at(c, bevel, y, lean).0, [0.0, lean, 0.0]);
+            self.strip(kind, across.clone().map(|pair| pair.map(flat)));
         }
     }
 

@@ -6,7 +6,7 @@ import { signals } from "./explain/signals.js";
 import { why } from "./explain/why.js";
 
 export const explain = {
-  about: (name) => `What is ${name}?`,
+  about: (name) => `About ${name}`,
   close: "Close",
   source: (number) => `Paper, eq. ${number}.`,
   mended: "The printed equation has a misprint; this is the form that is computed.",

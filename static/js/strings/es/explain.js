@@ -6,7 +6,7 @@ import { signals } from "./explain/signals.js";
 import { why } from "./explain/why.js";
 
 export const explain = {
-  about: (name) => `¿Qué es ${name}?`,
+  about: (name) => `Sobre ${name}`,
   close: "Cerrar",
   source: (number) => `Artículo, ec. ${number}.`,
   mended: "La ecuación impresa tiene una errata; esta es la forma que se calcula.",
