@@ -15,7 +15,7 @@ const COMPARE: &str = "const [open, done] = arguments; (async () => { \
     const differences = []; let texts = 0; \
     const kind = (value) => (Array.isArray(value) ? 'list' : value === null ? 'null' : typeof value); \
     const compare = (path, a, b) => { \
-        if (open.includes(path)) return; \
+        if (open.includes(path) || /^tour\\.claims\\.\\w+\\.(claim|criterion)$/.test(path)) return; \
         if (kind(a) !== kind(b)) { differences.push(`${path}: ${kind(a)} and ${kind(b)}`); return; } \
         if (kind(a) === 'function') { texts += 1; if (a.length !== b.length) differences.push(`${path}: parameters`); return; } \
         if (kind(a) === 'string') { texts += 1; if (b.trim() === '' && a.trim() !== '') differences.push(`${path}: empty`); return; } \
@@ -41,7 +41,7 @@ const COVERAGE: &str = "const done = arguments[0]; (async () => { \
 
 pub fn both_languages_have_the_same_texts(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    // Translations of the core's English texts: English has none.
+    // Translations of the core's English texts: English has none. So it is with the tour's claims and their criteria.
     let open = ["core.schemes", "core.gains", "core.parameters", "core.joints", "core.robots", "core.presets"];
     let open: Vec<_> = open.into_iter().chain(["core.presetDescriptions"]).collect();
     let found = page.run_async(COMPARE, &[json!(open)])?;

@@ -21,7 +21,7 @@ pub fn the_main_page_looks_as_approved(bench: &Bench) -> Result<()> {
         let page = Page::open(bench, screen)?;
         for theme in ["light", "dark"] {
             let name = format!("{}-{theme}", if screen == Screen::Desktop { "desktop" } else { "phone" });
-            let now = look(&page)?;
+            let now = look(&page, screen)?;
             let path = reference(&name);
             if bless {
                 std::fs::create_dir_all(path.parent().context("no folder")?)?;
@@ -51,8 +51,8 @@ pub fn the_main_page_looks_as_approved(bench: &Bench) -> Result<()> {
 /// The comparison is worth something only if it fails when it should.
 pub fn a_change_of_looks_would_be_seen(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    let before = look(&page)?;
-    let same = look(&page)?.share_beyond(&before, CELL_TOLERANCE)?;
+    let before = look(&page, Screen::Desktop)?;
+    let same = look(&page, Screen::Desktop)?.share_beyond(&before, CELL_TOLERANCE)?;
     ensure!(same <= 0.001, "the page differs from itself in {:.2} % of its cells", 100.0 * same);
     let figure =
         "[...document.querySelectorAll('#results figure-card')].find((card) => card.getClientRects().length > 0)";
@@ -76,7 +76,7 @@ pub fn a_change_of_looks_would_be_seen(bench: &Bench) -> Result<()> {
     ];
     for (what, change, restore) in changes {
         page.run(&change, &[])?;
-        let share = look(&page)?.share_beyond(&before, CELL_TOLERANCE)?;
+        let share = look(&page, Screen::Desktop)?.share_beyond(&before, CELL_TOLERANCE)?;
         println!("{what}: {:.2} % of the cells differ", 100.0 * share);
         ensure!(share > SHARE, "{what} changes only {:.2} % of the cells: the comparison is blind", 100.0 * share);
         page.run(&restore, &[])?;
@@ -84,8 +84,11 @@ pub fn a_change_of_looks_would_be_seen(bench: &Bench) -> Result<()> {
     Ok(())
 }
 
-/// What the window shows from the top of the page, at rest.
-fn look(page: &Page<'_>) -> Result<Grid> {
+/// What a high window shows from the top of the page, at rest: with the first figures, which a usual one leaves out.
+fn look(page: &Page<'_>, screen: Screen) -> Result<Grid> {
+    let (width, height, mobile) = if screen == Screen::Desktop { (1440, 2000, false) } else { (390, 2400, true) };
+    let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": mobile });
+    page.devtools("Emulation.setDeviceMetricsOverride", &metrics)?;
     page.run("scrollTo({ top: 0, behavior: 'instant' }); document.activeElement.blur()", &[])?;
     page.ready()?;
     // Sentences with milliseconds are another length each time.
