@@ -34,10 +34,10 @@ pub fn nonsense_is_refused_and_the_last_good_run_stays(bench: &Bench) -> Result<
     let gain = gain_field(Scheme::Proposed, "/scheme/gains/k_v/0");
     let duration = "#setup [data-pointer=\"/integration/duration_s\"]".to_owned();
     for (field, text, needle) in [
-        (&gain, "abc", "K_v, joint 1 must be a number; “abc” is not."),
-        (&gain, "-5", "K_v, joint 1 must be between 0 and 100000 N·m·s; -5 is not."),
+        (&gain, "abc", "K_v, joint 1 must be a number; “abc” is not"),
+        (&gain, "-5", "K_v, joint 1 must be between 0 and 100000 N·m·s; -5 is not"),
         (&gain, "1e999", "must be a number"),
-        (&duration, "-", "Duration must be a number; “-” is not."),
+        (&duration, "-", "Duration must be a number; “-” is not"),
         (&duration, "1e9", "Duration must be between"),
     ] {
         let input = format!("{field} .exact input");
