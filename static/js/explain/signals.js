@@ -10,7 +10,7 @@ export const SIGNALS = {
   tau: { equations: ["τ = − K s + Y hat(θ)"], unit: "N·m", source: "3, 13" },
   voltage: { equations: ["v = frac(R_a; r K_a) τ = frac(τ; 16.952)"], unit: "V", source: "1" },
   theta_hat: { equations: ["tilde(θ) = hat(θ) − θ"], unit: null, source: "2" },
-  norm: { equations: ["norm(tilde(θ)) = sqrt(Σ_i tilde(θ)_i^2)"], unit: null, source: null },
+  norm: { equations: ["sqrt(frac(1; 18) Σ_{i = 1}^{18} { ( tilde(θ)_i / θ_i ) }^2)"], unit: null, source: null },
   torque_parts: {
     equations: ["τ = H ( q ) ddot(q) + C ( q , dot(q) ) dot(q) + D dot(q) + f_c ( dot(q) ) + g ( q )"],
     unit: "N·m",

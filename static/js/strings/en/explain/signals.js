@@ -43,9 +43,9 @@ export const signals = {
       "Good tracking does not need true estimates: it needs estimates whose torques add up. An estimate far from its line next to a small error shows just that.",
   },
   norm: {
-    name: "the norm of the parameter error",
-    what: "How far all 18 estimates together are from the truth. Large parameters, such as the frictions and inertias, dominate it.",
-    read: "It need not fall: with a gradient law the tracking error can vanish while the norm stays.",
+    name: "the relative error of the estimates",
+    what: "How far all 18 estimates together are from the truth: the root mean square of their relative errors. It starts at 1, for the estimates start at zero; small parameters count as much as large ones.",
+    read: "It need not fall: with a gradient law the tracking error can vanish while this stays. One estimate far beyond a small true value is enough to raise it above 1.",
   },
   torque_parts: {
     name: "the parts of the torque",
@@ -54,8 +54,8 @@ export const signals = {
   },
   phase_plane: {
     name: "the phase plane",
-    what: "Velocity error over tracking error, with time along the curve. The straight line is the sliding surface s = 0.",
-    read: "A run goes to its line first and then along it towards the origin. What keeps it circling is torque that is not yet learned.",
+    what: "Velocity error over tracking error, with time along the curve. The sliding surface s = 0 is a straight line through the origin; its slope is −Λ, so each scheme and joint has its own, and none is drawn.",
+    read: "On its line a run slides into the origin. What keeps it circling instead is torque that is not yet learned.",
   },
   index: {
     name: "the performance index I",

@@ -43,9 +43,9 @@ export const signals = {
       "Seguir bien no exige estimados verdaderos: exige estimados cuyos pares sumen lo correcto. Un estimado lejos de su línea junto a un error pequeño muestra justo eso.",
   },
   norm: {
-    name: "la norma del error de parámetros",
-    what: "Qué tan lejos de la verdad están los 18 estimados juntos. La dominan los parámetros grandes, como fricciones e inercias.",
-    read: "No tiene por qué bajar: con una ley de gradiente el error de seguimiento puede desaparecer mientras la norma queda.",
+    name: "el error relativo de los estimados",
+    what: "Qué tan lejos de la verdad están los 18 estimados juntos: la media cuadrática de sus errores relativos. Empieza en 1, pues los estimados empiezan en cero; los parámetros pequeños cuentan tanto como los grandes.",
+    read: "No tiene por qué bajar: con una ley de gradiente el error de seguimiento puede desaparecer mientras este queda. Basta un estimado muy por encima de un valor verdadero pequeño para que pase de 1.",
   },
   torque_parts: {
     name: "las partes del par",
@@ -54,8 +54,8 @@ export const signals = {
   },
   phase_plane: {
     name: "el plano de fase",
-    what: "Error de velocidad sobre error de seguimiento, con el tiempo a lo largo de la curva. La recta es la superficie deslizante s = 0.",
-    read: "Una simulación va primero a su recta y luego por ella al origen. Lo que la mantiene girando es par aún no aprendido.",
+    what: "Error de velocidad sobre error de seguimiento, con el tiempo a lo largo de la curva. La superficie deslizante s = 0 es una recta por el origen; su pendiente es −Λ, así que cada esquema y articulación tiene la suya, y no se dibuja ninguna.",
+    read: "Por su recta una simulación se desliza al origen. Lo que la mantiene girando en vez de eso es par aún no aprendido.",
   },
   index: {
     name: "el índice de desempeño I",
