@@ -33,6 +33,8 @@ import { failureOf, loadModule } from "./wasm.js";
 import { Words } from "./words.js";
 
 const root = document.documentElement;
+/** Results that wait for others of the same change are drawn without them after this time. */
+const LATE_AFTER_MS = 100;
 
 async function main() {
   buildMasthead("playground");
@@ -98,10 +100,18 @@ function build(app) {
   });
   byId("colophon").textContent = strings.colophon(description.core_version);
 
+  let computing = null;
+  // What changes back within a blink would only cost a frame.
+  const sayComputing = () => {
+    if (!laboratory.isReady) {
+      byId("run-state").textContent = strings.stateRunning;
+    }
+  };
   laboratory.addEventListener("asked", () => {
     root.dataset.state = "running";
     root.dataset.generation = laboratory.generation;
-    byId("run-state").textContent = strings.stateRunning;
+    clearTimeout(computing);
+    computing = setTimeout(sayComputing, LATE_AFTER_MS);
     timeline.duration = state.valueAt(description.schemes[0].id, "/integration/duration_s");
     showSetup();
     showGains();
@@ -114,22 +124,7 @@ function build(app) {
     cards[scheme].progress = laboratory.progress[scheme];
     figures.redraw();
   });
-  let pendingText = null;
-  laboratory.addEventListener("result", ({ detail: { scheme } }) => {
-    const { results, generation } = laboratory;
-    cards[scheme].result = results[scheme];
-    figures.redraw();
-    const texts = () => {
-      pendingText = null;
-      showTables(results);
-      figures.describe(reportsOf(results), timeline.duration);
-    };
-    // In a task of their own behind the next frame: first the pixels.
-    pendingText ??= requestAnimationFrame(() => setTimeout(texts));
-    if (laboratory.isReady) {
-      figures.redraw(() => finished(laboratory, generation, description), { atOnce: true });
-    }
-  });
+  showResults(app, cards, showTables);
 
   const size = Math.max(1, Math.min(description.schemes.length, navigator.hardwareConcurrency || 1));
   const pool = new RunPool(module, size, {
@@ -143,6 +138,36 @@ function build(app) {
   laboratory.begin(pool);
   pins.begin();
   takeHandover(app);
+}
+
+/** Shows results as they come: all at once when the last of a change is there, or those there are when it lets wait. */
+function showResults({ laboratory, figures, timeline, description }, cards, showTables) {
+  let late = null;
+  let pendingTexts = null;
+  const changed = new Set();
+  const texts = () => {
+    pendingTexts = null;
+    for (const scheme of changed) {
+      cards[scheme].result = laboratory.results[scheme];
+    }
+    changed.clear();
+    showTables(laboratory.results);
+    figures.describe(reportsOf(laboratory.results), timeline.duration);
+  };
+  laboratory.addEventListener("result", ({ detail: { scheme } }) => {
+    changed.add(scheme);
+    clearTimeout(late);
+    if (laboratory.isReady) {
+      const { generation } = laboratory;
+      figures.redraw(() => finished(laboratory, generation, description), { atOnce: true });
+    } else {
+      // Drawing now would only keep the processor from the runs that are still under way.
+      const waited = performance.now() - laboratory.askedAt;
+      late = setTimeout(() => figures.redraw(), Math.max(0, LATE_AFTER_MS - waited));
+    }
+    // In a task of their own behind the next frame: first the pixels.
+    pendingTexts ??= requestAnimationFrame(() => setTimeout(texts));
+  });
 }
 
 function buildCards(app) {

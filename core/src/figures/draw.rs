@@ -224,8 +224,8 @@ mod tests {
         let live = PlottedRun::new(Scheme::Proposed, &run.recording, true, &[]);
         let pinned = PlottedRun { faded: true, label: Some("before"), ..live };
         let texts = Texts { time_axis: "tiempo [s]", ..Texts::default() };
-        let view = View { texts, ..View::whole(Style { theme: Theme::Light, scale: 1.0 }) };
-        let (sheet, _) = drawn(Figure::Torques, (600, 420), &[live, pinned], &view);
+        let view = View { texts, ..View::whole(Style { theme: Theme::Light, scale: 2.0 }) };
+        let (sheet, _) = drawn(Figure::Torques, (1200, 840), &[live, pinned], &view);
         let widths: Vec<_> = sheet.curves.iter().map(|(_, stroke)| stroke.width).collect();
         assert!(widths[0] > widths[1], "the legend keeps the caller's order");
         assert!(widths[2] < widths[3], "the panel draws the live run last");
