@@ -11,7 +11,7 @@ use serde_json::json;
 use std::path::PathBuf;
 
 /// Brightness, of 255, by which a cell may differ before it counts.
-const CELL_TOLERANCE: f64 = 14.0;
+const CELL_TOLERANCE: f64 = 10.0;
 /// Share of cells that may count.
 const SHARE: f64 = 0.02;
 
