@@ -153,20 +153,36 @@ function showResults({ laboratory, figures, timeline, description }, cards, show
     changed.clear();
     showTables(laboratory.results);
     figures.describe(reportsOf(laboratory.results), timeline.duration);
+    sayReady();
+  };
+  // Everything on the page is that of the newest settings once both pixels and texts are.
+  const sayReady = () => {
+    if (laboratory.isReady && pendingTexts === null && root.dataset.drawnGeneration === String(laboratory.generation)) {
+      root.dataset.state = "ready";
+      byId("run-state").textContent = strings.stateReady(root.dataset.lastLatencyMs);
+      const parts = description.schemes.map(({ id, name }) => `${name}: ${endOf(laboratory.results[id])}.`);
+      announce(strings.announceReady(parts.join(" ")));
+    }
   };
   laboratory.addEventListener("result", ({ detail: { scheme } }) => {
     changed.add(scheme);
+    // In a task of their own behind the next frame: first the pixels.
+    pendingTexts ??= requestAnimationFrame(() => setTimeout(texts));
     clearTimeout(late);
     if (laboratory.isReady) {
       const { generation } = laboratory;
-      figures.redraw(() => finished(laboratory, generation, description), { atOnce: true });
+      figures.redraw(
+        () => {
+          noteLatency(laboratory, generation);
+          sayReady();
+        },
+        { atOnce: true },
+      );
     } else {
       // Drawing now would only keep the processor from the runs that are still under way.
       const waited = performance.now() - laboratory.askedAt;
       late = setTimeout(() => figures.redraw(), Math.max(0, LATE_AFTER_MS - waited));
     }
-    // In a task of their own behind the next frame: first the pixels.
-    pendingTexts ??= requestAnimationFrame(() => setTimeout(texts));
   });
 }
 
@@ -206,20 +222,12 @@ function paintTheme(description, figures) {
   figures.dark = isDark();
 }
 
-/** Called when the figures of the newest results are on their canvases. */
-function finished(laboratory, generation, description) {
-  if (generation !== laboratory.generation || !laboratory.isReady) {
-    return;
+/** Called when the figures of a generation's results are on their canvases. */
+function noteLatency(laboratory, generation) {
+  if (generation === laboratory.generation && laboratory.isReady) {
+    root.dataset.drawnGeneration = generation;
+    root.dataset.lastLatencyMs = Math.round(performance.now() - laboratory.askedAt);
   }
-  const latency = Math.round(performance.now() - laboratory.askedAt);
-  root.dataset.drawnGeneration = generation;
-  root.dataset.lastLatencyMs = latency;
-  root.dataset.state = "ready";
-  byId("run-state").textContent = strings.stateReady(latency);
-  const parts = description.schemes.map(({ id, name }) => {
-    return `${name}: ${endOf(laboratory.results[id])}.`;
-  });
-  announce(strings.announceReady(parts.join(" ")));
 }
 
 /** How a run ended, in words. */

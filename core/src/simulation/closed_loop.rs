@@ -97,6 +97,51 @@ where
         let sign_velocity = self.plant.friction_sign.of(&velocity);
         Evaluation { geometry, velocity, sign_velocity, estimate, sliding, regressor, torque }
     }
+
+    /// The derivative of the state.
+    #[inline]
+    fn write_rate(&self, now: &Evaluation<R, T, N, P>, x: &[T], rate: &mut [T]) {
+        let layout = self.layout();
+        let (x, rate) = (&x[..layout.len], &mut rate[..layout.len]);
+        let acceleration = self.plant.acceleration(&now.geometry, &now.velocity, &now.sign_velocity, &now.torque);
+        rate[..N].copy_from_slice(now.velocity.as_slice());
+        rate[N..2 * N].copy_from_slice(acceleration.as_slice());
+        self.velocity_source.derivative(&now.estimate, &mut rate[layout.velocity_source..layout.theta_hat]);
+
+        let sign_estimate = if A::FILTERS && !V::MEASURED {
+            self.plant.friction_sign.of(&now.estimate.velocity)
+        } else {
+            now.sign_velocity
+        };
+        let input = AdaptationInput::<R, T, N, P> {
+            geometry: &now.geometry,
+            velocity: &now.estimate.velocity,
+            sign_velocity: &sign_estimate,
+            torque: &now.torque,
+            gradient: &gradient::<R, T, N, P>(&now.regressor, &now.sliding.sliding_variable),
+            theta_hat: &x[layout.theta_hat..layout.adaptation],
+        };
+        let (theta_hat_rate, law_rate) = rate[layout.theta_hat..].split_at_mut(P);
+        self.adaptation.derivative(&input, &x[layout.adaptation..], theta_hat_rate, law_rate);
+    }
+
+    /// A row of a recording.
+    fn write_row(&self, now: &Evaluation<R, T, N, P>, desired: &Desired<T, N>, x: &[T], row: &mut [T]) {
+        let layout = self.layout();
+        let blocks = [
+            now.sliding.error,
+            now.velocity - desired.velocity,
+            now.estimate.observer_error,
+            now.torque,
+            SVector::<T, N>::from_column_slice(&x[..N]),
+        ];
+        let (joints, rest) = row.split_at_mut(blocks.len() * N);
+        for (out, block) in joints.chunks_exact_mut(N).zip(&blocks) {
+            out.copy_from_slice(block.as_slice());
+        }
+        rest[..P].copy_from_slice(&x[layout.theta_hat..layout.adaptation]);
+        rest[P..].copy_from_slice(now.sliding.sliding_variable.as_slice());
+    }
 }
 
 impl<R, V, A, T, const N: usize, const P: usize> StateSpace<T> for ClosedLoop<R, V, A, T, N, P>
@@ -129,51 +174,22 @@ where
     }
 
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
-        let layout = self.layout();
         // One check here removes those of every part below.
-        let (x, rate) = (&x[..layout.len], &mut rate[..layout.len]);
-        let desired = self.trajectory.at(time_s);
-        let now = self.evaluate(&desired, x);
-
-        let acceleration = self.plant.acceleration(&now.geometry, &now.velocity, &now.sign_velocity, &now.torque);
-        rate[..N].copy_from_slice(now.velocity.as_slice());
-        rate[N..2 * N].copy_from_slice(acceleration.as_slice());
-        self.velocity_source.derivative(&now.estimate, &mut rate[layout.velocity_source..layout.theta_hat]);
-
-        let sign_estimate = if A::FILTERS && !V::MEASURED {
-            self.plant.friction_sign.of(&now.estimate.velocity)
-        } else {
-            now.sign_velocity
-        };
-        let input = AdaptationInput::<R, T, N, P> {
-            geometry: &now.geometry,
-            velocity: &now.estimate.velocity,
-            sign_velocity: &sign_estimate,
-            torque: &now.torque,
-            gradient: &gradient::<R, T, N, P>(&now.regressor, &now.sliding.sliding_variable),
-            theta_hat: &x[layout.theta_hat..layout.adaptation],
-        };
-        let (theta_hat_rate, law_rate) = rate[layout.theta_hat..].split_at_mut(P);
-        self.adaptation.derivative(&input, &x[layout.adaptation..], theta_hat_rate, law_rate);
+        let x = &x[..self.layout().len];
+        let now = self.evaluate(&self.trajectory.at(time_s), x);
+        self.write_rate(&now, x, rate);
     }
 
     fn observe(&self, time_s: f64, x: &[T], row: &mut [T]) {
-        let layout = self.layout();
+        let desired = self.trajectory.at(time_s);
+        self.write_row(&self.evaluate(&desired, x), &desired, x, row);
+    }
+
+    fn observe_and_derive(&self, time_s: f64, x: &[T], row: &mut [T], rate: &mut [T]) {
         let desired = self.trajectory.at(time_s);
         let now = self.evaluate(&desired, x);
-        let blocks = [
-            now.sliding.error,
-            now.velocity - desired.velocity,
-            now.estimate.observer_error,
-            now.torque,
-            SVector::<T, N>::from_column_slice(&x[..N]),
-        ];
-        let (joints, rest) = row.split_at_mut(blocks.len() * N);
-        for (out, block) in joints.chunks_exact_mut(N).zip(&blocks) {
-            out.copy_from_slice(block.as_slice());
-        }
-        rest[..P].copy_from_slice(&x[layout.theta_hat..layout.adaptation]);
-        rest[P..].copy_from_slice(now.sliding.sliding_variable.as_slice());
+        self.write_row(&now, &desired, x, row);
+        self.write_rate(&now, x, rate);
     }
 
     fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]) {

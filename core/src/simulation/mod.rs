@@ -32,6 +32,8 @@ pub trait StateSpace<T: Scalar>: Send {
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
     /// Writes one row of a recording without its time: see [`Columns`].
     fn observe(&self, time_s: f64, x: &[T], row: &mut [T]);
+    /// Both at once, with the same bits: they share nearly all of their work.
+    fn observe_and_derive(&self, time_s: f64, x: &[T], row: &mut [T], rate: &mut [T]);
     /// Writes the tracking error per joint, rad.
     fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]);
     /// The estimates within a state.

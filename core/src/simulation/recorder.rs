@@ -21,8 +21,13 @@ impl Recorder {
 
     /// Records the next sample (or the end) from the state at `time_s`.
     pub fn record(&mut self, system: &dyn StateSpace<f64>, time_s: f64, x: &[f64]) -> Result<(), Divergence> {
+        self.record_row(|row| system.observe(time_s, x, row))
+    }
+
+    /// Records the next sample (or the end) as `observe` writes it.
+    pub fn record_row(&mut self, observe: impl FnOnce(&mut [f64])) -> Result<(), Divergence> {
         let label_s = self.settings.sample_time_s(self.recording.len());
-        self.recording.push(label_s, |row| system.observe(time_s, x, row)).map_err(|_| Divergence::NotFinite)
+        self.recording.push(label_s, observe).map_err(|_| Divergence::NotFinite)
     }
 
     /// Whether a sample is due before `end_s`.

@@ -115,7 +115,8 @@ fn accept_downloads(page: &Page<'_>) -> Result<TempDir> {
 fn saved(folder: &TempDir, name: &str) -> Result<Vec<u8>> {
     let path = folder.path().join(name);
     let start = Instant::now();
-    while !path.exists() {
+    // A name without content is a place that the browser has reserved.
+    while std::fs::metadata(&path).map_or(true, |file| file.len() == 0) {
         ensure!(start.elapsed() < PATIENCE, "{name} was not saved; there are {:?}", names(folder.path())?);
         std::thread::sleep(Duration::from_millis(20));
     }

@@ -77,7 +77,7 @@ pub fn switching_keeps_everything_but_the_words(bench: &Bench) -> Result<()> {
     page.type_into(&format!("{beta} .exact input"), "-1")?;
     let refused =
         page.run("return document.querySelector(arguments[0] + ' .field-error').textContent", &[json!(beta)])?;
-    ensure!(refused == "β debe estar entre 0 y 10000; -1 no lo está.", "the refusal is {refused}");
+    ensure!(refused == "β debe estar entre 0 y 10000; -1 no lo está", "the refusal is {refused}");
 
     // The choice lasts, and an address counts more than it.
     page.reload()?;
