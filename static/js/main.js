@@ -164,13 +164,20 @@ function showResults({ laboratory, figures, timeline, description }, cards, show
       announce(strings.announceReady(parts.join(" ")));
     }
   };
+  // In a task of their own behind the next frame: first the pixels.
+  const textsSoon = () => {
+    pendingTexts ??= requestAnimationFrame(() => setTimeout(texts));
+  };
+  const showLate = () => {
+    figures.redraw();
+    textsSoon();
+  };
   laboratory.addEventListener("result", ({ detail: { scheme } }) => {
     changed.add(scheme);
-    // In a task of their own behind the next frame: first the pixels.
-    pendingTexts ??= requestAnimationFrame(() => setTimeout(texts));
     clearTimeout(late);
     if (laboratory.isReady) {
       const { generation } = laboratory;
+      textsSoon();
       figures.redraw(
         () => {
           noteLatency(laboratory, generation);
@@ -181,7 +188,7 @@ function showResults({ laboratory, figures, timeline, description }, cards, show
     } else {
       // Drawing now would only keep the processor from the runs that are still under way.
       const waited = performance.now() - laboratory.askedAt;
-      late = setTimeout(() => figures.redraw(), Math.max(0, LATE_AFTER_MS - waited));
+      late = setTimeout(showLate, Math.max(0, LATE_AFTER_MS - waited));
     }
   });
 }
