@@ -18,9 +18,11 @@ const MOVE: &str = "const [step, done] = arguments; const root = document.docume
     const slider = document.querySelector('#setup [data-pointer=\"/plant/friction/width_rad_s\"] input[type=range]'); \
     const { port1, port2 } = new MessageChannel(); const start = performance.now(); let drawn; \
     port1.onmessage = () => done([drawn, performance.now() - start, Number(root.dataset.lastLatencyMs)]); \
-    new MutationObserver((_, observer) => { if (root.dataset.state !== 'ready') return; \
-        observer.disconnect(); drawn = performance.now() - start; port2.postMessage(null); \
-    }).observe(root, { attributes: true, attributeFilter: ['data-state'] }); \
+    const before = root.dataset.drawnGeneration; \
+    new MutationObserver((_, observer) => { if (root.dataset.drawnGeneration === before) return; \
+        observer.disconnect(); drawn = performance.now() - start; \
+        requestAnimationFrame(() => port2.postMessage(null)); \
+    }).observe(root, { attributes: true, attributeFilter: ['data-drawn-generation'] }); \
     slider.value = Number(slider.value) + step; slider.dispatchEvent(new Event('input', { bubbles: true }))";
 
 /// Drags at the rate of a screen's frames and answers with the lengths of tasks of 50 ms and more on the main thread.
