@@ -1,6 +1,5 @@
 // Scenarios as files: reading what was picked or dropped, writing what is exported. Reads strictly: what is wrong is named.
 
-import { element } from "./dom.js";
 import { strings } from "./strings/index.js";
 import { failureOf } from "./wasm.js";
 
@@ -83,12 +82,4 @@ export function documentText(document) {
 /** Documents as a study's specification. */
 export function studyText(documents) {
   return documentText({ scenarios: Object.values(documents) });
-}
-
-/** Hands text to the visitor as a file. */
-export function download(name, text) {
-  const url = URL.createObjectURL(new Blob([text], { type: "application/json" }));
-  element("a", { href: url, download: name }).click();
-  // Not at once: the browser may fetch it a little later.
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }

@@ -8,7 +8,7 @@ import { notice } from "../notice.js";
 import { strings } from "../strings/index.js";
 import { failureOf } from "../wasm.js";
 import { PAPER_ESTIMATES } from "./catalogue.js";
-import { download, fileName } from "./download.js";
+import { download, fileName } from "../download.js";
 import { bindPopup } from "./popup.js";
 
 const texts = strings.figures;

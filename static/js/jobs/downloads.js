@@ -2,12 +2,12 @@
 
 import { address, send, token } from "../api.js";
 import { element } from "../dom.js";
+import { download } from "../download.js";
 import { strings } from "../strings/index.js";
 import { figurePath } from "./figures.js";
 import { showError } from "./message.js";
 
 const texts = strings.server;
-const KEEP_MS = 60_000;
 
 /** Links to the files of the scenario number `n` of the job `id`; errors go to `failure`. */
 export function buildDownloads(id, n, figure, failure) {
@@ -38,7 +38,5 @@ export function buildDownloads(id, n, figure, failure) {
 async function fetchFile(path, name) {
   // Large files take their time: no limit but the reader's patience.
   const response = await send(path, { signal: new AbortController().signal });
-  const url = URL.createObjectURL(await response.blob());
-  element("a", { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), KEEP_MS);
+  download(name, await response.blob());
 }

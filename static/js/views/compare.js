@@ -23,6 +23,7 @@ export function buildCompare(place, app) {
   byId("history").append(pinButton("pin-runs"));
   const showList = buildPinList(app);
   const table = buildPinTable(app);
+  place.setAttribute("aria-label", texts.title);
   place.append(
     element(
       "div",

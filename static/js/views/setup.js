@@ -2,6 +2,7 @@
 
 import "../elements/number-field.js";
 import { element } from "../dom.js";
+import { valueAt } from "../pointer.js";
 import { linear, logarithmic } from "../scale.js";
 import { strings } from "../strings/index.js";
 
@@ -39,7 +40,7 @@ export function buildSetup(container, { description, state, laboratory, resetAll
 
   const fields = numbers(description.limits).map(({ pointer, caption, help: title, unit, scale }) => {
     const field = element("number-field", { "data-pointer": pointer, title });
-    const defaultValue = pointer.split("/").slice(1).reduce((node, part) => node[part], paper.documents[schemes[0]]);
+    const defaultValue = valueAt(paper.documents[schemes[0]], pointer);
     field.configure({ caption, label: title ? `${caption}: ${title}` : caption, unit, scale, defaultValue });
     field.addEventListener("edit", ({ detail }) => {
       const failure = laboratory.edit(schemes, pointer, detail.value);

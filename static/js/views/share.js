@@ -2,7 +2,8 @@
 
 import { announce } from "../announce.js";
 import { element } from "../dom.js";
-import { documentText, download, studyText } from "../files.js";
+import { download } from "../download.js";
+import { documentText, studyText } from "../files.js";
 import { popover } from "../popover.js";
 import { strings } from "../strings/index.js";
 import { buildImport } from "./import.js";
@@ -51,7 +52,7 @@ function exportMenu({ state, description }) {
   const menu = popover({ id: "export-menu", label: texts.exportMenu, text: texts.exportMenu, fill });
 
   function save(name, text) {
-    download(name, text);
+    download(name, text, "application/json");
     announce(texts.exported(name));
     menu.close();
   }

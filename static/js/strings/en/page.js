@@ -19,8 +19,6 @@ export const page = {
   pages: { playground: "Playground", jobs: "Jobs", api: "API" },
   pagesLabel: "Pages",
   toolbar: "Tools",
-  stage: "The arm",
-  compare: "Compare",
   sections: "Sections",
   controls: "Controls",
   setup: "Setup",

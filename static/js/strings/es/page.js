@@ -22,8 +22,6 @@ export const page = {
   pages: { playground: "Laboratorio", jobs: "Trabajos", api: "API" },
   pagesLabel: "Páginas",
   toolbar: "Herramientas",
-  stage: "El brazo",
-  compare: "Comparar",
   sections: "Secciones",
   controls: "Controles",
   setup: "Ajustes",

@@ -1,6 +1,6 @@
 // Hands files to the visitor.
 
-import { element } from "../dom.js";
+import { element } from "./dom.js";
 
 /** Long enough for any browser to have begun. */
 const KEEP_MS = 60_000;
