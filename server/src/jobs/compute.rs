@@ -14,13 +14,18 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 const SLICE_STEPS: u64 = 2_000;
 
 /// What the computing thread and the one that watches over it tell each other.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Control {
     pause: AtomicBool,
     steps: AtomicU64,
 }
 
 impl Control {
+    /// Of a computation that starts at this step. Who asks before a thread is free must not hear that work is lost.
+    pub(super) fn starting_at(step: u64) -> Self {
+        Self { pause: AtomicBool::new(false), steps: AtomicU64::new(step) }
+    }
+
     /// Makes the computation pause within a slice.
     pub(super) fn pause(&self) {
         self.pause.store(true, Ordering::Relaxed);
@@ -82,6 +87,7 @@ fn try_compute(
             scenario.start()
         }
     };
+    control.steps.store(simulation.steps(), Ordering::Relaxed);
     while !simulation.advance(SLICE_STEPS) {
         control.steps.store(simulation.steps(), Ordering::Relaxed);
         if control.pause.load(Ordering::Relaxed) {

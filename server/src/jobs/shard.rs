@@ -119,7 +119,7 @@ impl Worker<'_> {
     ) -> Result<Box<Finished>, Stopped> {
         let mut interval = self.shared.settings.slice;
         loop {
-            let control = Arc::new(Control::default());
+            let control = Arc::new(Control::starting_at(from.as_ref().map_or(0, |snapshot| snapshot.step)));
             let (sender, receiver) = oneshot::channel();
             let (document, watched) = (document.to_owned(), control.clone());
             self.shared.pool.spawn_fifo(move || {
