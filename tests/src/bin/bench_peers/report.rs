@@ -11,7 +11,7 @@ pub fn print(contestants: &[Contestant], results: &[SchemeTimes], pinned: &Pinne
         "Default study, microseconds per step of 1 ms, median of {ROUNDS} rounds, {place}; in brackets, times ours"
     );
     let headings = results.iter().map(|result| format!("{:>20}", result.scheme.name()));
-    println!("{:<33}{}{:>14}", "", headings.collect::<String>(), "differs by");
+    println!("{:<38}{}{:>14}", "", headings.collect::<String>(), "differs by");
     for (index, contestant) in contestants.iter().enumerate() {
         let cells = results.iter().map(|result| match find(result, index) {
             Some(time) => format!("{:>11.3} {:>8}", time.median(), format!("({:.2})", ratio(result, time))),
@@ -20,7 +20,7 @@ pub fn print(contestants: &[Contestant], results: &[SchemeTimes], pinned: &Pinne
         // The strict comparison's.
         let differences = results.iter().filter_map(|result| find(result, index)?.differences.last());
         println!(
-            "{:<33}{}{:>14.1e}",
+            "{:<38}{}{:>14.1e}",
             contestant.name,
             cells.collect::<String>(),
             differences.copied().fold(0.0, f64::max)
@@ -29,7 +29,7 @@ pub fn print(contestants: &[Contestant], results: &[SchemeTimes], pinned: &Pinne
     println!();
     for (index, contestant) in contestants.iter().enumerate() {
         if let Some(time) = results.iter().find_map(|result| find(result, index)) {
-            println!("{:<33}{}", contestant.name, time.with);
+            println!("{:<38}{}", contestant.name, time.with);
         }
     }
 }
