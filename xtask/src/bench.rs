@@ -1,14 +1,17 @@
 //! Timing the study's workload: builds the page and the release server, then runs the benchmark program of `tests/`, and
-//! after it the page in a browser where there is one.
+//! after it the page in a browser where there is one; or, instead, the comparison with other programs.
 //!
 //! What is measured, and how, is their business.
 
 use anyhow::Result;
 
 use crate::workspace::{Workspace, build_server};
-use crate::{BenchArgs, DistArgs, browser, dist, tools};
+use crate::{BenchArgs, DistArgs, browser, dist, peers, tools};
 
 pub(crate) fn run(workspace: &Workspace, args: &BenchArgs) -> Result<()> {
+    if args.peers {
+        return peers::run(workspace, args);
+    }
     dist::run(workspace, &DistArgs { debug_info: false })?;
     tools::run(&mut build_server(workspace, "release"))?;
     let mut command = workspace.cargo();

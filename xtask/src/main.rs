@@ -6,6 +6,7 @@ mod bench;
 mod browser;
 mod debian;
 mod dist;
+mod peers;
 mod postgres;
 mod python;
 mod requirement;
@@ -113,9 +114,14 @@ pub(crate) struct TestArgs {
 
 /// Time the study natively, then the page in a browser against the release server.
 ///
-/// Prints tables with limits beside them. Arguments after `--` go to the native program, `bench_study` in tests/.
+/// Prints tables with limits beside them. Arguments after `--` go to the native program, `bench_study` in tests/, or with
+/// `--peers` to `bench_peers`, for example `cargo xtask bench --peers -- --json peers.json`.
 #[derive(Args)]
 pub(crate) struct BenchArgs {
+    /// Instead: the same closed loops in C++ with Eigen, in C by CasADi and in SciPy (benches/peers), checked against ours and
+    /// timed beside it.
+    #[arg(long)]
+    peers: bool,
     /// Arguments for the benchmark program.
     #[arg(last = true)]
     bench_args: Vec<OsString>,

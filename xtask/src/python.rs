@@ -19,6 +19,8 @@ pub(crate) const PYTHON: Requirement = Requirement {
 };
 
 const REQUIREMENTS: &str = "tests/python/requirements.txt";
+/// What `cargo xtask bench --peers` adds to the same environment.
+const PEERS_REQUIREMENTS: &str = "benches/peers/requirements.txt";
 
 /// Exits with success in an interpreter that can make environments and run the pinned packages.
 const PROBE: &str = "import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))";
@@ -29,6 +31,22 @@ pub(crate) fn ensure(workspace: &Workspace) -> Result<()> {
         return Ok(());
     }
     PYTHON.settle(prepare(workspace))
+}
+
+/// Makes the environment as for tests, and adds the packages of the peers that the benchmark compares us with.
+pub(crate) fn ensure_peers(workspace: &Workspace) -> Result<()> {
+    if !is_current(workspace)? {
+        prepare(workspace)?;
+    }
+    // Inside the environment, so that it goes when that is made anew.
+    let stamp = folder(workspace).join("requirements-peers.txt");
+    let wanted = read(workspace, PEERS_REQUIREMENTS)?;
+    if fs::read_to_string(&stamp).ok().as_ref() == Some(&wanted) {
+        return Ok(());
+    }
+    eprintln!("Installing Python packages for peers into {}", folder(workspace).display());
+    install(workspace, PEERS_REQUIREMENTS)?;
+    fs::write(stamp, wanted).context("cannot note which packages are installed")
 }
 
 /// The environment's interpreter.
@@ -55,7 +73,18 @@ fn stamp(workspace: &Workspace) -> PathBuf {
 }
 
 fn requirements(workspace: &Workspace) -> Result<String> {
-    fs::read_to_string(workspace.root.join(REQUIREMENTS)).with_context(|| format!("cannot read {REQUIREMENTS}"))
+    read(workspace, REQUIREMENTS)
+}
+
+fn read(workspace: &Workspace, file: &str) -> Result<String> {
+    fs::read_to_string(workspace.root.join(file)).with_context(|| format!("cannot read {file}"))
+}
+
+/// Installs exactly what `file` pins.
+fn install(workspace: &Workspace, file: &str) -> Result<()> {
+    let mut pip = Command::new(interpreter(workspace));
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--requirement"]);
+    tools::run(pip.arg(workspace.root.join(file)))
 }
 
 /// Whether the environment has what is pinned, and its interpreter has not been removed from under it.
@@ -72,9 +101,7 @@ fn prepare(workspace: &Workspace) -> Result<()> {
     let python = find().with_context(|| format!("{} need {}", PYTHON.purpose, PYTHON.needs))?;
     eprintln!("Installing Python packages for tests into {}", folder(workspace).display());
     tools::run(Command::new(python).args(["-m", "venv", "--clear"]).arg(folder(workspace)))?;
-    let mut pip = Command::new(interpreter(workspace));
-    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--requirement"]);
-    tools::run(pip.arg(workspace.root.join(REQUIREMENTS)))?;
+    install(workspace, REQUIREMENTS)?;
     fs::write(stamp(workspace), requirements(workspace)?).context("cannot note which packages are installed")
 }
 
