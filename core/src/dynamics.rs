@@ -23,16 +23,45 @@ pub enum FrictionSign<T> {
 impl<T: Scalar> FrictionSign<T> {
     /// From a width in rad/s; zero means the true sign.
     pub fn from_width(width_rad_s: f64) -> Self {
-        if width_rad_s == 0.0 { Self::True } else { Self::Tanh { inverse_width: T::splat(1.0 / width_rad_s) } }
+        Self::from_widths(|_| width_rad_s)
+    }
+
+    /// From each lane's width in rad/s: all zero, or none.
+    pub fn from_widths(width_rad_s: impl Fn(usize) -> f64) -> Self {
+        if width_rad_s(0) == 0.0 {
+            Self::True
+        } else {
+            Self::Tanh { inverse_width: T::from_lanes(|lane| 1.0 / width_rad_s(lane)) }
+        }
     }
 
     /// `sgn(v)` per joint, as regularised.
-    #[inline]
+    #[inline(always)]
     pub fn of<const N: usize>(&self, v: &SVector<T, N>) -> SVector<T, N> {
-        match *self {
-            Self::True => v.map(Scalar::sign),
-            Self::Tanh { inverse_width } => v.map(|v| (v * inverse_width).tanh()),
+        let [sign] = self.of_each([v]);
+        sign
+    }
+
+    /// `sgn(v)` of several velocities: side by side, where the machine can.
+    #[inline(always)]
+    pub fn of_each<const N: usize, const K: usize>(&self, v: [&SVector<T, N>; K]) -> [SVector<T, N>; K] {
+        let mut sign = [[T::zero(); N]; K];
+        for k in 0..K {
+            for i in 0..N {
+                sign[k][i] = match *self {
+                    Self::True => v[k][i].sign(),
+                    Self::Tanh { inverse_width } => v[k][i] * inverse_width,
+                };
+            }
         }
+        if let Self::Tanh { .. } = self {
+            T::tanh_each(sign.as_flattened_mut());
+        }
+        let mut vectors = [SVector::<T, N>::zeros(); K];
+        for k in 0..K {
+            vectors[k].copy_from_slice(&sign[k]);
+        }
+        vectors
     }
 }
 
@@ -57,7 +86,7 @@ where
     }
 
     /// Forward dynamics `q̈ = H(q)⁻¹ (τ − C(q, q̇) q̇ − D q̇ − F_c sgn(q̇) − g(q))`, rad/s². Source: paper eq. (1).
-    #[inline]
+    #[inline(always)]
     pub fn acceleration(
         &self,
         geometry: &R::Geometry<T>,
@@ -110,7 +139,7 @@ struct Factors<T, const N: usize> {
 }
 
 /// Factors a symmetric matrix: no square root, no pivoting.
-#[inline]
+#[inline(always)]
 fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
     let mut lower = *a;
     let mut pivots = SVector::<T, N>::zeros();
@@ -135,7 +164,7 @@ fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
 
 /// Solves `A x = b` for symmetric positive definite `A` by `L D Lᵀ`: no failure path
 /// (an indefinite `A` gives large or non-finite numbers, which the simulation reports as divergence).
-#[inline]
+#[inline(always)]
 pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVector<T, N>) -> SVector<T, N> {
     let Factors { lower: l, inverse_pivots, .. } = factorize(a);
     let mut x = b;

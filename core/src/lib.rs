@@ -16,6 +16,7 @@ pub mod experiments;
 #[cfg(feature = "figures")]
 pub mod figures;
 pub mod integrators;
+pub mod lanes;
 pub mod metrics;
 pub mod recording;
 pub mod regressor;

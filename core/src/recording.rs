@@ -129,6 +129,11 @@ impl Recording {
         &self.rows
     }
 
+    /// All rows, given away.
+    pub(crate) fn into_rows(self) -> Vec<f64> {
+        self.rows
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows.len() / self.columns.width()

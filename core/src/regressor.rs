@@ -6,7 +6,7 @@ use crate::unroll::unrolled;
 use nalgebra::SVector;
 
 /// Model torque `Y θ`, N·m. `theta` holds the `P` parameters. Source: paper eq. (2).
-#[inline]
+#[inline(always)]
 pub fn model_torque<R, T, const N: usize, const P: usize>(y: &Regressor<T, N, P>, theta: &[T]) -> SVector<T, N>
 where
     R: Robot<N, P>,
@@ -22,7 +22,7 @@ where
 }
 
 /// Gradient `Yᵀ s` that every adaptation law here descends along. Source: paper eq. (4), (9), (14).
-#[inline]
+#[inline(always)]
 pub fn gradient<R, T, const N: usize, const P: usize>(y: &Regressor<T, N, P>, s: &SVector<T, N>) -> SVector<T, P>
 where
     R: Robot<N, P>,

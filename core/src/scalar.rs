@@ -5,10 +5,18 @@
 //! Square root is exact everywhere and uses the hardware.
 //! A SIMD type takes part by implementing [`Scalar`]: comparisons give masks, and branches on data are [`Scalar::select`].
 
-use crate::transcendental::{self, SIN_COS_LIMIT, TANH_LIMIT};
+use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT, TANH_LIMIT};
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 use std::ops::Neg;
+
+/// A computation to be compiled with a scalar's vector instructions. All that it calls on numbers must be inlined into it.
+pub trait Kernel {
+    /// What it computes.
+    type Output;
+    /// Computes it.
+    fn run(self) -> Self::Output;
+}
 
 /// A real number, or several side by side, with the operations that the closed loop needs.
 pub trait Scalar:
@@ -26,13 +34,28 @@ pub trait Scalar:
 {
     /// Result of a comparison: one truth value per lane.
     type Mask: Copy;
+    /// Numbers side by side.
+    const LANES: usize;
 
+    /// The number of each lane.
+    fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;
+    /// The number in lane `n`, counted from 0.
+    fn lane(self, n: usize) -> f64;
+    /// Runs `kernel`, compiled with the vector instructions that this type uses.
+    fn compiled<K: Kernel>(kernel: K) -> K::Output;
     /// The constant `value` in every lane.
     fn splat(value: f64) -> Self;
     /// `(sin x, cos x)`; `x` in rad.
     fn sin_cos(self) -> (Self, Self);
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
+    /// Hyperbolic tangent of each number, with the bits of [`Scalar::tanh`].
+    #[inline(always)]
+    fn tanh_each(x: &mut [Self]) {
+        for x in x {
+            *x = x.tanh();
+        }
+    }
     /// Absolute value.
     fn abs(self) -> Self;
     /// `self < other`, lane by lane; false where either is not a number.
@@ -47,6 +70,7 @@ pub trait Scalar:
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
 
     /// Signum with `sign(0) = 0`, as friction at rest needs it.
+    #[inline(always)]
     fn sign(self) -> Self {
         let zero = Self::zero();
         let negative = Self::select(self.less_than(zero), -Self::one(), zero);
@@ -56,43 +80,66 @@ pub trait Scalar:
 
 impl Scalar for f64 {
     type Mask = bool;
+    const LANES: usize = 1;
 
-    #[inline]
+    #[inline(always)]
+    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+        number(0)
+    }
+    #[inline(always)]
+    fn lane(self, _n: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn compiled<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+    #[inline(always)]
     fn splat(value: f64) -> Self {
         value
     }
-    #[inline]
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         // Only an arm that spins out of control gets here; its numbers should still be those of its angles.
         if SIN_COS_LIMIT < self.abs() { libm::sincos(self) } else { transcendental::sin_cos(self) }
     }
-    #[inline]
+    #[inline(always)]
     fn tanh(self) -> Self {
         // The same bits as the whole computation gives; dry friction is there most of the time.
         if TANH_LIMIT <= self.abs() { f64::copysign(1.0, self) } else { transcendental::tanh(self) }
     }
-    #[inline]
+    #[inline(always)]
+    fn tanh_each(x: &mut [Self]) {
+        let mut padded = [0.0; 16];
+        padded[..x.len()].copy_from_slice(x);
+        let count = x.len().next_multiple_of(2);
+        for x in &mut padded[..count] {
+            *x = transcendental::tanh(*x);
+        }
+        x.copy_from_slice(&padded[..x.len()]);
+    }
+    #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
     }
-    #[inline]
+    #[inline(always)]
     fn less_than(self, other: Self) -> bool {
         self < other
     }
-    #[inline]
+    #[inline(always)]
     fn any(mask: bool) -> bool {
         mask
     }
-    #[inline]
+    #[inline(always)]
     fn quadrant(self) -> (bool, bool, bool) {
-        let n = self as i64;
+        let n = (self + ROUNDING).to_bits();
         (n & 1 != 0, n & 2 != 0, (n + 1) & 2 != 0)
     }
-    #[inline]
+    #[inline(always)]
     fn power_of_two(self) -> Self {
-        Self::from_bits(((self as i64 + 1023) as u64) << 52)
+        Self::from_bits(((self + ROUNDING).to_bits() + 1023) << 52)
     }
-    #[inline]
+    #[inline(always)]
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

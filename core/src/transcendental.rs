@@ -11,8 +11,9 @@ pub(crate) const SIN_COS_LIMIT: f64 = 1e5;
 /// From here on the hyperbolic tangent rounds to one.
 pub(crate) const TANH_LIMIT: f64 = 22.0;
 
-/// Adding and subtracting this rounds a number below 2⁵¹ to the nearest whole one.
-const ROUNDING: f64 = 6_755_399_441_055_744.0;
+/// Adding and subtracting this rounds a number below 2⁵¹ to the nearest whole one; after adding it, the last bits of the sum
+/// are those of that whole number.
+pub(crate) const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// π/2 in parts: whole multiples up to 2²⁰ of the first two (33 bits each) are exact.
 const HALF_PI: [f64; 3] = [
@@ -36,24 +37,29 @@ const fn inverse_factorial(n: u32) -> f64 {
 }
 
 /// `Σ c_k z^k` in pairs, which leaves less to wait for than Horner's scheme.
-#[inline]
+#[inline(always)]
 fn series<T: Scalar, const K: usize>(c: [f64; K], z: T) -> T {
     let z2 = z * z;
-    let pair = |k: usize| if k + 1 < K { T::splat(c[k]) + T::splat(c[k + 1]) * z } else { T::splat(c[k]) };
-    let mut sum = pair((K - 1) / 2 * 2);
+    let mut sum = pair(&c, (K - 1) / 2 * 2, z);
     for k in (0..(K - 1) / 2).rev() {
-        sum = sum * z2 + pair(2 * k);
+        sum = sum * z2 + pair(&c, 2 * k, z);
     }
     sum
 }
 
-#[inline]
+/// `c_k + c_{k+1} z`.
+#[inline(always)]
+fn pair<T: Scalar, const K: usize>(c: &[f64; K], k: usize, z: T) -> T {
+    if k + 1 < K { T::splat(c[k]) + T::splat(c[k + 1]) * z } else { T::splat(c[k]) }
+}
+
+#[inline(always)]
 fn round<T: Scalar>(x: T) -> T {
     (x + T::splat(ROUNDING)) - T::splat(ROUNDING)
 }
 
 /// `(sin x, cos x)`; `x` in rad.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
     const SINE: [f64; 8] = [
         -inverse_factorial(3),
@@ -96,7 +102,7 @@ pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
 }
 
 /// `tanh x = t/(t + 2)` with `t = e^{2|x|} − 1`.
-#[inline]
+#[inline(always)]
 pub(crate) fn tanh<T: Scalar>(x: T) -> T {
     const CUBIC: [f64; 11] = [
         inverse_factorial(3),

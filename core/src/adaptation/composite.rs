@@ -41,7 +41,7 @@ pub struct CompositeAdaptation<R, T, const N: usize, const P: usize> {
 }
 
 impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
-    #[inline]
+    #[inline(always)]
     fn theta_hat_rate(&self, w: &[T], gradient: &SVector<T, P>, theta_hat: &[T], rate: &mut [T]) {
         let (w, theta_hat, rate) = (&w[..P], &theta_hat[..P], &mut rate[..P]);
         match self {
@@ -75,8 +75,37 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         memory.fill(T::zero());
     }
 
-    #[inline]
+    #[inline(always)]
     fn derivative(
+        &self,
+        input: &AdaptationInput<'_, R, T, N, P>,
+        states: &[T],
+        theta_hat_rate: &mut [T],
+        states_rate: &mut [T],
+    ) {
+        if T::LANES == 1 {
+            self.derivative_apart(input, states, theta_hat_rate, states_rate);
+        } else {
+            self.derivative_within(input, states, theta_hat_rate, states_rate);
+        }
+    }
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptation<R, T, N, P> {
+    /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
+    #[inline(never)]
+    fn derivative_apart(
+        &self,
+        input: &AdaptationInput<'_, R, T, N, P>,
+        states: &[T],
+        theta_hat_rate: &mut [T],
+        states_rate: &mut [T],
+    ) {
+        self.derivative_within(input, states, theta_hat_rate, states_rate);
+    }
+
+    #[inline(always)]
+    fn derivative_within(
         &self,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],

@@ -39,7 +39,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
     }
 
     /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative. Source: paper eq. (10) to (12).
-    #[inline]
+    #[inline(always)]
     pub fn advance(
         &self,
         geometry: &R::Geometry<T>,

@@ -22,7 +22,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     fn initialize(&self, _geometry: &R::Geometry<T>, _velocity: &SVector<T, N>, _states: &mut [T]) {}
 
-    #[inline]
+    #[inline(always)]
     fn derivative(
         &self,
         input: &AdaptationInput<'_, R, T, N, P>,

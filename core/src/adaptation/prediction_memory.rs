@@ -31,7 +31,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     pub const STATES: usize = P + R::PAIRS.len();
 
     /// Writes `w'` and `Z'`, given `Yf`, `τf`, θ̂ and its rate. Source: paper eq. (16) to (18).
-    #[inline]
+    #[inline(always)]
     pub fn derivative(
         &self,
         filtered: &Regressor<T, N, P>,
@@ -51,11 +51,15 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         }
         unrolled!(R::PAIRS.len(), n => {
             let (i, j) = R::PAIRS[n];
-            let product = (0..N)
-                .filter(|&row| R::LIVE[row][i] && R::LIVE[row][j])
-                .map(|row| filtered[(row, i)] * filtered[(row, j)])
-                .reduce(|sum, term| sum + term)
-                .unwrap_or(T::zero());
+            let mut product = T::zero();
+            let mut is_first = true;
+            for row in 0..N {
+                if R::LIVE[row][i] && R::LIVE[row][j] {
+                    let term = filtered[(row, i)] * filtered[(row, j)];
+                    product = if is_first { term } else { product + term };
+                    is_first = false;
+                }
+            }
             z_rate[n] = self.gain * product - self.forgetting * z[n];
             w_rate[i] += z[n] * theta_hat_rate[j];
             if i != j {

@@ -23,7 +23,7 @@ pub struct Projection<T, const P: usize> {
 
 impl<T: Scalar, const P: usize> Projection<T, P> {
     /// `f_b,i` for estimate θ̂_i that is driven by `drive_i = β w_i + (Yᵀ s)_i`. Source: paper eq. (19), (20).
-    #[inline]
+    #[inline(always)]
     pub fn correction(&self, i: usize, theta_hat: T, drive: T) -> T {
         let below = fraction(self.lower[i] - theta_hat, self.lower_margin[i]);
         let above = fraction(theta_hat - self.upper[i], self.upper_margin[i]);
@@ -33,7 +33,7 @@ impl<T: Scalar, const P: usize> Projection<T, P> {
 
 /// δ: how deep into a margin, as a share of its width between 0 and 1. Outside, where estimates are nearly always, it takes
 /// no division.
-#[inline]
+#[inline(always)]
 fn fraction<T: Scalar>(depth: T, width: T) -> T {
     let (zero, one) = (T::zero(), T::one());
     let inside = zero.less_than(depth);

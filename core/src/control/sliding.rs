@@ -45,7 +45,7 @@ pub struct SlidingSignals<T, const N: usize> {
 
 impl<T: Scalar, const N: usize> SlidingFeedback<T, N> {
     /// Error, references and sliding variable for velocity `v*`. Source: paper eq. (5) to (7), (15).
-    #[inline]
+    #[inline(always)]
     pub fn signals(
         &self,
         position: &SVector<T, N>,
@@ -68,7 +68,7 @@ impl<T: Scalar, const N: usize> SlidingFeedback<T, N> {
     }
 
     /// `τ = −K s + Y θ̂`, N·m. Source: paper eq. (3), (13).
-    #[inline]
+    #[inline(always)]
     pub fn torque(&self, signals: &SlidingSignals<T, N>, model_torque: &SVector<T, N>) -> SVector<T, N> {
         model_torque - self.gain.component_mul(&signals.sliding_variable)
     }

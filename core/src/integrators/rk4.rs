@@ -1,6 +1,6 @@
 //! The classical fixed-step Runge-Kutta method of order 4.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 
 /// Work space for a state of a given length; no step allocates.
 #[derive(Debug, Clone)]
@@ -21,27 +21,62 @@ impl<T: Scalar> Rk4<T> {
     pub fn step(&mut self, start_s: f64, end_s: f64, x: &mut [T], mut f: impl FnMut(f64, &[T], &mut [T])) {
         let h = end_s - start_s;
         let middle_s = start_s + 0.5 * h;
-        let (half, full) = (T::splat(0.5 * h), T::splat(h));
-        let (sixth, two) = (T::splat(h / 6.0), T::splat(2.0));
+        let half = 0.5 * h;
         let Self { slopes: [k1, k2, k3, k4], stage } = self;
 
         f(start_s, x, k1);
-        reach(stage, x, half, k1);
+        T::compiled(Reach { stage, x, h: half, k: k1 });
         f(middle_s, stage, k2);
-        reach(stage, x, half, k2);
+        T::compiled(Reach { stage, x, h: half, k: k2 });
         f(middle_s, stage, k3);
-        reach(stage, x, full, k3);
+        T::compiled(Reach { stage, x, h, k: k3 });
         f(end_s, stage, k4);
+        T::compiled(Advance { x, h, k1, k2, k3, k4 });
+    }
+}
+
+/// `stage = x + h k`.
+struct Reach<'a, T> {
+    stage: &'a mut [T],
+    x: &'a [T],
+    h: f64,
+    k: &'a [T],
+}
+
+impl<T: Scalar> Kernel for Reach<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Self { stage, x, h, k } = self;
+        reach(stage, x, T::splat(h), k);
+    }
+}
+
+/// `x += h/6 (k1 + 2 k2 + 2 k3 + k4)`.
+struct Advance<'a, T> {
+    x: &'a mut [T],
+    h: f64,
+    k1: &'a [T],
+    k2: &'a [T],
+    k3: &'a [T],
+    k4: &'a [T],
+}
+
+impl<T: Scalar> Kernel for Advance<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Self { x, h, k1, k2, k3, k4 } = self;
+        let (sixth, two) = (T::splat(h / 6.0), T::splat(2.0));
         // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
         // does), several small increments would each be lost and leave it beside the equilibrium.
-        for ((((x, k1), k2), k3), k4) in x.iter_mut().zip(&*k1).zip(&*k2).zip(&*k3).zip(&*k4) {
+        for ((((x, k1), k2), k3), k4) in x.iter_mut().zip(k1).zip(k2).zip(k3).zip(k4) {
             *x += sixth * (*k1 + two * *k2 + two * *k3 + *k4);
         }
     }
 }
 
-/// `stage = x + h k`. A function, so that the compiler knows that the three do not overlap.
-#[inline(never)]
+#[inline(always)]
 fn reach<T: Scalar>(stage: &mut [T], x: &[T], h: T, k: &[T]) {
     for ((stage, x), k) in stage.iter_mut().zip(x).zip(k) {
         *stage = *x + h * *k;

@@ -62,7 +62,7 @@ struct Factors<T> {
 
 impl<T: Scalar> Factors<T> {
     /// Of `H(q) a + C(q, u) v`.
-    #[inline]
+    #[inline(always)]
     fn newton_euler(u: &SVector<T, N>, v: &SVector<T, N>, a: &SVector<T, N>) -> Self {
         Self {
             h: a[0],
@@ -77,7 +77,7 @@ impl<T: Scalar> Factors<T> {
     }
 
     /// Of the momentum `H(q) v`.
-    #[inline]
+    #[inline(always)]
     fn momentum(v: &SVector<T, N>) -> Self {
         let zero = T::zero();
         Self {
@@ -93,7 +93,7 @@ impl<T: Scalar> Factors<T> {
     }
 
     /// Of `−∂T/∂q`, `T = ½ vᵀ H(q) v`.
-    #[inline]
+    #[inline(always)]
     fn kinetic_gradient(v: &SVector<T, N>) -> Self {
         let zero = T::zero();
         Self {
@@ -108,23 +108,23 @@ impl<T: Scalar> Factors<T> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn row1(&self, h: T, alpha: T, beta: T) -> T {
         h * self.h + alpha * self.alpha + beta * self.beta
     }
 
-    #[inline]
+    #[inline(always)]
     fn row2(&self, h22: T, h23: T, alpha: T, gamma: T) -> T {
         h22 * self.second + h23 * self.third - alpha * self.centrifugal + gamma * self.gamma2
     }
 
-    #[inline]
+    #[inline(always)]
     fn row3(&self, h23: T, h33: T, beta: T, gamma: T) -> T {
         h23 * self.second + h33 * self.third - beta * self.centrifugal - gamma * self.gamma3
     }
 
     /// The ten inertia columns.
-    #[inline]
+    #[inline(always)]
     fn inertia_columns(&self, g: &Geometry<T>) -> Regressor<T, N, P> {
         let zero = T::zero();
         let mut y = Regressor::<T, N, P>::zeros();
@@ -154,7 +154,7 @@ impl<T: Scalar> Factors<T> {
 }
 
 /// Adds viscous friction, Coulomb friction and gravity: θ11..θ18.
-#[inline]
+#[inline(always)]
 fn add_friction_and_gravity<T: Scalar>(
     y: &mut Regressor<T, N, P>,
     g: &Geometry<T>,
@@ -197,7 +197,7 @@ impl Robot<N, P> for CrsA465 {
     const PAIRS: &'static [(usize, usize)] = &list_pairs::<N, P, { count_pairs(&LIVE) }>(&LIVE);
     const DATA: &'static RobotData = &DATA;
 
-    #[inline]
+    #[inline(always)]
     fn geometry<T: Scalar>(q: &SVector<T, N>) -> Geometry<T> {
         let (s2, c2) = q[1].sin_cos();
         let (s3, c3) = q[2].sin_cos();
@@ -230,7 +230,7 @@ impl Robot<N, P> for CrsA465 {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn regressor<T: Scalar>(
         geometry: &Geometry<T>,
         u: &SVector<T, N>,
@@ -243,12 +243,12 @@ impl Robot<N, P> for CrsA465 {
         y
     }
 
-    #[inline]
+    #[inline(always)]
     fn momentum_regressor<T: Scalar>(geometry: &Geometry<T>, v: &SVector<T, N>) -> Regressor<T, N, P> {
         Factors::momentum(v).inertia_columns(geometry)
     }
 
-    #[inline]
+    #[inline(always)]
     fn balance_regressor<T: Scalar>(
         geometry: &Geometry<T>,
         v: &SVector<T, N>,
@@ -259,7 +259,7 @@ impl Robot<N, P> for CrsA465 {
         y
     }
 
-    #[inline]
+    #[inline(always)]
     fn inertia_and_bias<T: Scalar>(
         g: &Geometry<T>,
         th: &SVector<T, P>,

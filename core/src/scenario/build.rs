@@ -3,7 +3,7 @@
 use super::document::{
     InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
 };
-use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
+use super::gains::{ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
 use crate::adaptation::{
     AdaptationLaw, CompositeAdaptation, CompositeLaw, FilteredRegressor, GradientAdaptation, PredictionMemory,
     Projection,
@@ -20,89 +20,129 @@ use crate::trajectories::{Fourier, Remembered};
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
 
-/// The closed loop that a resolved document describes, for robot `R`.
+/// What the lanes of a scalar take their numbers from, one per lane; lanes behind the last repeat it.
+struct Lanes<'a, D>(&'a [D]);
+
+impl<D> Lanes<'_, D> {
+    fn of(&self, lane: usize) -> &D {
+        &self.0[lane.min(self.0.len() - 1)]
+    }
+
+    fn scalar<T: Scalar>(&self, number: impl Fn(&D) -> f64) -> T {
+        T::from_lanes(|lane| number(self.of(lane)))
+    }
+
+    fn vector<T: Scalar, const L: usize>(&self, numbers: impl Fn(&D) -> &[f64]) -> SVector<T, L> {
+        SVector::from_fn(|i, _| self.scalar(|of| numbers(of)[i]))
+    }
+}
+
+/// The closed loop that resolved documents describe, for robot `R`: one document per lane, which may differ in numbers only
+/// (see [`super::Scenario::runs_beside`]).
 ///
-/// The document has been resolved for `R`: gains are filled in and have `N` or `P` entries.
+/// The documents have been resolved for `R`: gains are filled in and have `N` or `P` entries.
 pub(super) fn closed_loop<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    document: &ScenarioDocument,
+    documents: &[&ScenarioDocument],
 ) -> Box<dyn StateSpace<T>> {
-    match &document.scheme {
-        SchemeDocument::SlotineLi(gains) => slotine_li::<R, T, N, P>(document, &gains.clone().unwrap_or_default()),
-        SchemeDocument::TangArteaga(gains) => tang_arteaga::<R, T, N, P>(document, &gains.clone().unwrap_or_default()),
-        SchemeDocument::Proposed(gains) => proposed::<R, T, N, P>(document, &gains.clone().unwrap_or_default()),
+    /// The gains of each document, all of one scheme.
+    macro_rules! gains {
+        ($scheme:ident) => {
+            documents
+                .iter()
+                .filter_map(|document| match &document.scheme {
+                    SchemeDocument::$scheme(gains) => Some(gains.clone().unwrap_or_default()),
+                    _ => None,
+                })
+                .collect::<Vec<_>>()
+        };
+    }
+    match &documents[0].scheme {
+        SchemeDocument::SlotineLi(_) => slotine_li::<R, T, N, P>(documents, &Lanes(&gains!(SlotineLi))),
+        SchemeDocument::TangArteaga(_) => tang_arteaga::<R, T, N, P>(documents, &Lanes(&gains!(TangArteaga))),
+        SchemeDocument::Proposed(_) => proposed::<R, T, N, P>(documents, &Lanes(&gains!(Proposed))),
     }
 }
 
 /// Slotine and Li: measured velocity, gradient adaptation. Source: paper eq. (3) to (7).
 fn slotine_li<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    document: &ScenarioDocument,
-    gains: &SlotineLiGains,
+    documents: &[&ScenarioDocument],
+    gains: &Lanes<SlotineLiGains>,
 ) -> Box<dyn StateSpace<T>> {
-    let feedback = feedback(&gains.k_s, &gains.lambda, CoriolisVelocity::Estimated);
-    let adaptation = GradientAdaptation { gain: vector::<T, P>(&gains.gamma_adapt) };
-    assemble::<R, _, _, T, N, P>(document, measured(document), feedback, adaptation)
+    let feedback = SlidingFeedback {
+        gain: gains.vector(|gains| &gains.k_s),
+        lambda: gains.vector(|gains| &gains.lambda),
+        coriolis_velocity: CoriolisVelocity::Estimated,
+    };
+    let adaptation = GradientAdaptation { gain: gains.vector::<T, P>(|gains| &gains.gamma_adapt) };
+    assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
 }
 
 /// Tang and Arteaga: measured velocity, composite adaptation. Source: paper eq. (8) to (12).
 fn tang_arteaga<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    document: &ScenarioDocument,
-    gains: &TangArteagaGains,
+    documents: &[&ScenarioDocument],
+    gains: &Lanes<TangArteagaGains>,
 ) -> Box<dyn StateSpace<T>> {
-    let feedback = feedback(&gains.k_s, &gains.lambda, CoriolisVelocity::Estimated);
-    let adaptation = CompositeAdaptation::<R, T, N, P> {
-        filter: FilteredRegressor::new(T::splat(gains.filter_rad_s)),
-        memory: PredictionMemory::new(T::splat(gains.gamma), T::splat(gains.forgetting)),
-        law: CompositeLaw::Additive { gain: vector(&gains.gamma_adapt), memory_gain: T::splat(gains.delta) },
+    let feedback = SlidingFeedback {
+        gain: gains.vector(|gains| &gains.k_s),
+        lambda: gains.vector(|gains| &gains.lambda),
+        coriolis_velocity: CoriolisVelocity::Estimated,
     };
-    assemble::<R, _, _, T, N, P>(document, measured(document), feedback, adaptation)
+    let adaptation = CompositeAdaptation::<R, T, N, P> {
+        filter: FilteredRegressor::new(gains.scalar(|gains| gains.filter_rad_s)),
+        memory: PredictionMemory::new(gains.scalar(|gains| gains.gamma), gains.scalar(|gains| gains.forgetting)),
+        law: CompositeLaw::Additive {
+            gain: gains.vector(|gains| &gains.gamma_adapt),
+            memory_gain: gains.scalar(|gains| gains.delta),
+        },
+    };
+    assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
 }
 
 /// Proposed: observed velocity, composite adaptation with projection. Source: paper eq. (13) to (23).
 fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    document: &ScenarioDocument,
-    gains: &ProposedGains,
+    documents: &[&ScenarioDocument],
+    gains: &Lanes<ProposedGains>,
 ) -> Box<dyn StateSpace<T>> {
     let observer = ModelFreeObserver {
-        lambda_z: vector(&gains.lambda_z),
-        lambda_x: vector(&gains.lambda_x),
-        k_d: vector(&gains.k_d),
+        lambda_z: gains.vector(|gains| &gains.lambda_z),
+        lambda_x: gains.vector(|gains| &gains.lambda_x),
+        k_d: gains.vector(|gains| &gains.k_d),
     };
-    let feedback = feedback(&gains.k_v, &gains.lambda, CoriolisVelocity::Reference);
-    let bounds = &gains.projection;
-    let nominal = |factor: f64| SVector::<T, P>::from_fn(|k, _| T::splat(factor * R::DATA.parameters[k].value));
+    let feedback = SlidingFeedback {
+        gain: gains.vector(|gains| &gains.k_v),
+        lambda: gains.vector(|gains| &gains.lambda),
+        coriolis_velocity: CoriolisVelocity::Reference,
+    };
+    let nominal = |factor: fn(&ProjectionBounds) -> f64| {
+        SVector::<T, P>::from_fn(|k, _| {
+            gains.scalar(|gains| factor(&gains.projection) * R::DATA.parameters[k].value)
+        })
+    };
     let projection = Projection {
-        strength: T::splat(gains.rho),
+        strength: gains.scalar(|gains| gains.rho),
         lower: SVector::zeros(),
-        lower_margin: SVector::from_element(T::splat(bounds.lower_margin)),
-        upper: nominal(bounds.upper_factor),
-        upper_margin: nominal(bounds.upper_hard_factor - bounds.upper_factor),
+        lower_margin: SVector::from_element(gains.scalar(|gains| gains.projection.lower_margin)),
+        upper: nominal(|bounds| bounds.upper_factor),
+        upper_margin: nominal(|bounds| bounds.upper_hard_factor - bounds.upper_factor),
     };
     let adaptation = CompositeAdaptation::<R, T, N, P> {
-        filter: FilteredRegressor::new(T::splat(gains.filter_rad_s)),
-        memory: PredictionMemory::new(T::splat(gains.gamma), T::splat(gains.forgetting)),
+        filter: FilteredRegressor::new(gains.scalar(|gains| gains.filter_rad_s)),
+        memory: PredictionMemory::new(gains.scalar(|gains| gains.gamma), gains.scalar(|gains| gains.forgetting)),
         law: CompositeLaw::Projected {
-            gain: vector(&gains.gamma_adapt),
-            memory_gain: T::splat(gains.beta),
+            gain: gains.vector(|gains| &gains.gamma_adapt),
+            memory_gain: gains.scalar(|gains| gains.beta),
             projection,
         },
     };
-    assemble::<R, _, _, T, N, P>(document, observer, feedback, adaptation)
+    assemble::<R, _, _, T, N, P>(documents, observer, feedback, adaptation)
 }
 
-fn measured<T: Scalar, const N: usize>(document: &ScenarioDocument) -> Measured<T, N> {
-    Measured { start: trajectory(&document.trajectory).at(0.0).position }
-}
-
-fn feedback<T: Scalar, const N: usize>(
-    gain: &[f64],
-    lambda: &[f64],
-    coriolis_velocity: CoriolisVelocity,
-) -> SlidingFeedback<T, N> {
-    SlidingFeedback { gain: vector(gain), lambda: vector(lambda), coriolis_velocity }
+fn measured<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Measured<T, N> {
+    Measured { start: trajectory(documents).at(0.0).position }
 }
 
 fn assemble<R, V, A, T, const N: usize, const P: usize>(
-    document: &ScenarioDocument,
+    documents: &[&ScenarioDocument],
     velocity_source: V,
     feedback: SlidingFeedback<T, N>,
     adaptation: A,
@@ -113,18 +153,27 @@ where
     A: AdaptationLaw<R, T, N, P> + 'static,
     T: Scalar,
 {
-    let theta = theta(document, R::DATA);
+    let thetas: Vec<_> = documents.iter().map(|document| theta(document, R::DATA)).collect();
     Box::new(ClosedLoop::<R, V, A, T, N, P> {
-        plant: Plant::new(vector(&theta), FrictionSign::from_width(document.plant.friction.width_rad_s)),
-        trajectory: Remembered::new(trajectory(&document.trajectory)),
+        plant: Plant::new(Lanes(&thetas).vector(|theta| theta), friction_sign(documents)),
+        trajectory: Remembered::new(trajectory(documents)),
         velocity_source,
         feedback,
         adaptation,
-        initial_velocity: match document.initial.velocity {
+        initial_velocity: match documents[0].initial.velocity {
             InitialVelocityDocument::Desired => InitialVelocity::Desired,
             InitialVelocityDocument::Rest => InitialVelocity::Rest,
         },
     })
+}
+
+fn friction_sign<T: Scalar>(documents: &[&ScenarioDocument]) -> FrictionSign<T> {
+    FrictionSign::from_widths(|lane| Lanes(documents).of(lane).plant.friction.width_rad_s)
+}
+
+/// Whether friction jumps at rest.
+pub(super) fn is_true_sign(document: &ScenarioDocument) -> bool {
+    document.plant.friction.width_rad_s == 0.0
 }
 
 /// True parameters of the simulated arm: the robot's, scaled.
@@ -139,19 +188,24 @@ pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> 
 /// A recording's torques, split by the arm that the document describes.
 pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recording: &Recording) -> TorqueParts {
     // The one robot so far, as in `Scenario::closed_loop`.
-    let theta = vector(&theta(document, robot));
-    let plant = Plant::<CrsA465, f64, 3, 18>::new(theta, FrictionSign::from_width(document.plant.friction.width_rad_s));
-    TorqueParts::of(&plant, &trajectory(&document.trajectory), recording)
+    let theta = SVector::from_column_slice(&theta(document, robot));
+    let plant = Plant::<CrsA465, f64, 3, 18>::new(theta, friction_sign(&[document]));
+    TorqueParts::of(&plant, &trajectory(&[document]), recording)
 }
 
 /// Whether an arm with these parameters can exist.
 pub(super) fn has_positive_inertia(theta: &[f64]) -> bool {
     // The one robot so far, as in `Scenario::closed_loop`.
-    dynamics::has_positive_inertia::<CrsA465, 3, 18>(&vector(theta))
+    dynamics::has_positive_inertia::<CrsA465, 3, 18>(&SVector::from_column_slice(theta))
+}
+
+fn trajectory<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Fourier<T, N> {
+    let fourier: Vec<_> = documents.iter().map(|document| fourier(&document.trajectory)).collect();
+    Fourier::side_by_side(|lane| &fourier[lane.min(fourier.len() - 1)])
 }
 
 /// Source: paper eq. (24) for the paper's own.
-fn trajectory<T: Scalar, const N: usize>(document: &TrajectoryDocument) -> Fourier<T, N> {
+pub(super) fn fourier<const N: usize>(document: &TrajectoryDocument) -> Fourier<f64, N> {
     match document.kind {
         TrajectoryKind::Paper => Fourier::from_degrees(
             1.0,
@@ -184,8 +238,4 @@ pub(super) fn settings(document: &ScenarioDocument, robot: &RobotData) -> Settin
         samples: document.recording.samples,
         columns: Columns { joints: robot.joint_count(), parameters: robot.parameter_count() },
     }
-}
-
-fn vector<T: Scalar, const L: usize>(numbers: &[f64]) -> SVector<T, L> {
-    SVector::from_fn(|i, _| T::splat(numbers[i]))
 }

@@ -11,6 +11,7 @@ mod presets;
 mod report;
 #[cfg(feature = "schema")]
 mod schema;
+mod side_by_side;
 mod tree;
 mod validate;
 
@@ -23,6 +24,7 @@ pub use error::{Problem, ScenarioError, in_plain_words};
 pub use gains::{GainInfo, GainSet, GainShape, ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
+pub use side_by_side::{SideBySide, run_each};
 pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;
@@ -228,7 +230,7 @@ impl Scenario {
     /// The closed loop as a state space.
     pub fn closed_loop(&self) -> Box<dyn StateSpace<f64>> {
         // The one robot so far; validation lets no other name through.
-        build::closed_loop::<CrsA465, f64, 3, 18>(&self.document)
+        build::closed_loop::<CrsA465, f64, 3, 18>(&[&self.document])
     }
 
     /// A run at its start.

@@ -9,7 +9,7 @@ use crate::control::{SlidingFeedback, SlidingSignals};
 use crate::dynamics::Plant;
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 use crate::trajectories::{Desired, Remembered};
 use crate::velocity::{VelocityEstimate, VelocitySource};
 use nalgebra::SVector;
@@ -45,6 +45,8 @@ struct Evaluation<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
     geometry: R::Geometry<T>,
     velocity: SVector<T, N>,
     sign_velocity: SVector<T, N>,
+    /// `sgn(v*)`; only filled in for laws that filter.
+    sign_estimate: SVector<T, N>,
     estimate: VelocityEstimate<T, N>,
     sliding: SlidingSignals<T, N>,
     regressor: Regressor<T, N, P>,
@@ -67,7 +69,7 @@ where
     A: AdaptationLaw<R, T, N, P>,
     T: Scalar,
 {
-    #[inline]
+    #[inline(always)]
     fn layout(&self) -> Layout {
         let velocity_source = 2 * N;
         let theta_hat = velocity_source + self.velocity_source.states();
@@ -75,8 +77,19 @@ where
         Layout { velocity_source, theta_hat, adaptation, len: adaptation + self.adaptation.states() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
+        if T::LANES == 1 { self.evaluate_apart(desired, x) } else { self.evaluate_within(desired, x) }
+    }
+
+    /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
+    #[inline(never)]
+    fn evaluate_apart(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
+        self.evaluate_within(desired, x)
+    }
+
+    #[inline(always)]
+    fn evaluate_within(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
         let layout = self.layout();
         let position = SVector::<T, N>::from_column_slice(&x[..N]);
         let velocity = SVector::<T, N>::from_column_slice(&x[N..2 * N]);
@@ -84,7 +97,13 @@ where
         let source_states = &x[layout.velocity_source..layout.theta_hat];
         let estimate = self.velocity_source.estimate(&position, &velocity, desired, source_states);
         let sliding = self.feedback.signals(&position, &estimate.velocity, desired);
-        let sign_reference = self.plant.friction_sign.of(&sliding.reference_velocity);
+        let friction_sign = &self.plant.friction_sign;
+        let [sign_reference, sign_velocity, sign_estimate] = if A::FILTERS && !V::MEASURED {
+            friction_sign.of_each([&sliding.reference_velocity, &velocity, &estimate.velocity])
+        } else {
+            let [reference, velocity] = friction_sign.of_each([&sliding.reference_velocity, &velocity]);
+            [reference, velocity, velocity]
+        };
         let regressor = R::regressor(
             &geometry,
             &sliding.coriolis_velocity,
@@ -94,12 +113,11 @@ where
         );
         let model = model_torque::<R, T, N, P>(&regressor, &x[layout.theta_hat..layout.adaptation]);
         let torque = self.feedback.torque(&sliding, &model);
-        let sign_velocity = self.plant.friction_sign.of(&velocity);
-        Evaluation { geometry, velocity, sign_velocity, estimate, sliding, regressor, torque }
+        Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, torque }
     }
 
     /// The derivative of the state.
-    #[inline]
+    #[inline(always)]
     fn write_rate(&self, now: &Evaluation<R, T, N, P>, x: &[T], rate: &mut [T]) {
         let layout = self.layout();
         let (x, rate) = (&x[..layout.len], &mut rate[..layout.len]);
@@ -108,15 +126,10 @@ where
         rate[N..2 * N].copy_from_slice(acceleration.as_slice());
         self.velocity_source.derivative(&now.estimate, &mut rate[layout.velocity_source..layout.theta_hat]);
 
-        let sign_estimate = if A::FILTERS && !V::MEASURED {
-            self.plant.friction_sign.of(&now.estimate.velocity)
-        } else {
-            now.sign_velocity
-        };
         let input = AdaptationInput::<R, T, N, P> {
             geometry: &now.geometry,
             velocity: &now.estimate.velocity,
-            sign_velocity: &sign_estimate,
+            sign_velocity: &now.sign_estimate,
             torque: &now.torque,
             gradient: &gradient::<R, T, N, P>(&now.regressor, &now.sliding.sliding_variable),
             theta_hat: &x[layout.theta_hat..layout.adaptation],
@@ -126,6 +139,7 @@ where
     }
 
     /// A row of a recording.
+    #[inline(always)]
     fn write_row(&self, now: &Evaluation<R, T, N, P>, desired: &Desired<T, N>, x: &[T], row: &mut [T]) {
         let layout = self.layout();
         let blocks = [
@@ -174,33 +188,76 @@ where
     }
 
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
-        // One check here removes those of every part below.
-        let x = &x[..self.layout().len];
-        let now = self.evaluate(&self.trajectory.at(time_s), x);
-        self.write_rate(&now, x, rate);
+        T::compiled(At { system: self, time_s, x, want: Want::Rate(rate) });
     }
 
     fn observe(&self, time_s: f64, x: &[T], row: &mut [T]) {
-        let desired = self.trajectory.at(time_s);
-        self.write_row(&self.evaluate(&desired, x), &desired, x, row);
+        T::compiled(At { system: self, time_s, x, want: Want::Row(row) });
     }
 
     fn observe_and_derive(&self, time_s: f64, x: &[T], row: &mut [T], rate: &mut [T]) {
-        let desired = self.trajectory.at(time_s);
-        let now = self.evaluate(&desired, x);
-        self.write_row(&now, &desired, x, row);
-        self.write_rate(&now, x, rate);
+        T::compiled(At { system: self, time_s, x, want: Want::Both(row, rate) });
     }
 
     fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]) {
-        let desired = self.trajectory.at(time_s);
-        for joint in 0..N {
-            error[joint] = x[joint] - desired.position[joint];
-        }
+        T::compiled(At { system: self, time_s, x, want: Want::Error(error) });
     }
 
     fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T] {
         let layout = self.layout();
         &x[layout.theta_hat..layout.adaptation]
+    }
+}
+
+/// What is wanted of a closed loop in one state.
+enum Want<'a, T> {
+    Rate(&'a mut [T]),
+    Row(&'a mut [T]),
+    Both(&'a mut [T], &'a mut [T]),
+    Error(&'a mut [T]),
+}
+
+/// A closed loop in one state: the computation that is compiled for each kind of scalar.
+struct At<'a, S, T> {
+    system: &'a S,
+    time_s: f64,
+    x: &'a [T],
+    want: Want<'a, T>,
+}
+
+impl<R, V, A, T, const N: usize, const P: usize> Kernel for At<'_, ClosedLoop<R, V, A, T, N, P>, T>
+where
+    R: Robot<N, P>,
+    V: VelocitySource<T, N>,
+    A: AdaptationLaw<R, T, N, P>,
+    T: Scalar,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { system, time_s, want, .. } = self;
+        // One check here removes those of every part.
+        let x = &self.x[..system.layout().len];
+        let desired = system.trajectory.at(time_s);
+        if let Want::Error(error) = want {
+            for joint in 0..N {
+                error[joint] = x[joint] - desired.position[joint];
+            }
+            return;
+        }
+        let now = system.evaluate(&desired, x);
+        let (row, rate) = match want {
+            Want::Rate(rate) => (None, Some(rate)),
+            Want::Row(row) => (Some(row), None),
+            Want::Both(row, rate) => (Some(row), Some(rate)),
+            Want::Error(_) => (None, None),
+        };
+        if let Some(row) = row {
+            system.write_row(&now, &desired, x, row);
+        }
+        if let Some(rate) = rate {
+            system.write_rate(&now, x, rate);
+        }
     }
 }

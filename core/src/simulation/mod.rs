@@ -4,12 +4,14 @@
 //! A diverging run is an [`Outcome`], not an error.
 
 mod closed_loop;
+mod lockstep;
 mod outcome;
 mod recorder;
 mod run;
 mod snapshot;
 
 pub use closed_loop::{ClosedLoop, InitialVelocity};
+pub(crate) use lockstep::{Lanes, Lockstep};
 pub use outcome::{Divergence, Outcome, TRACKING_ERROR_LIMIT_RAD};
 pub use run::Simulation;
 pub use snapshot::{Snapshot, SnapshotError};
@@ -104,8 +106,13 @@ impl Settings {
         if n >= self.steps() { self.duration_s } else { n as f64 * self.step_s }
     }
 
+    /// Steps per sample, where steps are fixed and every sample falls on the start of one.
+    pub fn steps_on_grid(&self) -> Option<u64> {
+        self.steps_per_sample().filter(|_| self.method == Method::Rk4)
+    }
+
     /// Steps per sample, where every sample falls on the start of a step.
-    pub fn steps_per_sample(&self) -> Option<u64> {
+    fn steps_per_sample(&self) -> Option<u64> {
         let steps = self.steps();
         let samples = self.samples as u64;
         let covers = (steps as f64 * self.step_s - self.duration_s).abs() <= 1e-9 * self.duration_s;

@@ -295,12 +295,12 @@ fn check(system: &dyn StateSpace<f64>, time_s: f64, x: &[f64], error: &mut [f64]
         return Err(Divergence::NotFinite);
     }
     system.tracking_error(time_s, x, error);
-    for (joint, e) in error.iter().enumerate() {
-        if e.abs() > TRACKING_ERROR_LIMIT_RAD {
-            return Err(Divergence::TrackingError(joint + 1));
-        }
-    }
-    Ok(())
+    exceeded_joint(error.iter().copied()).map_or(Ok(()), |joint| Err(Divergence::TrackingError(joint)))
+}
+
+/// The first joint (1 is the first) whose tracking error is beyond what counts as tracking.
+pub(super) fn exceeded_joint(error_rad: impl Iterator<Item = f64>) -> Option<usize> {
+    error_rad.enumerate().find(|(_, e)| e.abs() > TRACKING_ERROR_LIMIT_RAD).map(|(joint, _)| joint + 1)
 }
 
 /// Whether all numbers are finite. Zero times a number that is not is no number, and sixteen sums side by side need no

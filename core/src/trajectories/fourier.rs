@@ -17,7 +17,7 @@ pub struct Fourier<T, const N: usize> {
     harmonics: Vec<(SVector<T, N>, SVector<T, N>)>,
 }
 
-impl<T: Scalar, const N: usize> Fourier<T, N> {
+impl<const N: usize> Fourier<f64, N> {
     /// From angles in degrees: `sine_deg[joint][k − 1]`, `cosine_deg` likewise; rows shorter than the longest end in zeros.
     pub fn from_degrees(
         frequency_rad_s: f64,
@@ -26,19 +26,40 @@ impl<T: Scalar, const N: usize> Fourier<T, N> {
         cosine_deg: &[Vec<f64>],
     ) -> Self {
         let amplitude = |rows: &[Vec<f64>], k: usize| {
-            SVector::from_fn(|joint, _| {
-                T::splat(rows.get(joint).and_then(|row| row.get(k)).map_or(0.0, |deg| deg.to_radians()))
-            })
+            SVector::from_fn(|joint, _| rows.get(joint).and_then(|row| row.get(k)).map_or(0.0, |deg| deg.to_radians()))
         };
         let count = sine_deg.iter().chain(cosine_deg).map(Vec::len).max().unwrap_or(0);
         Self {
             frequency_rad_s,
-            offset: SVector::from_fn(|joint, _| T::splat(offset_deg[joint].to_radians())),
+            offset: SVector::from_fn(|joint, _| offset_deg[joint].to_radians()),
             harmonics: (0..count).map(|k| (amplitude(sine_deg, k), amplitude(cosine_deg, k))).collect(),
         }
     }
 
+    /// Whether both can be lanes of one trajectory: they turn at the same rate and have as many harmonics.
+    pub fn runs_beside(&self, other: &Self) -> bool {
+        self.frequency_rad_s == other.frequency_rad_s && self.harmonics.len() == other.harmonics.len()
+    }
+}
+
+impl<T: Scalar, const N: usize> Fourier<T, N> {
+    /// The trajectories of `T`'s lanes as one; they must run beside each other.
+    pub fn side_by_side<'a>(of_lane: impl Fn(usize) -> &'a Fourier<f64, N>) -> Self {
+        let vector = |of: &dyn Fn(&Fourier<f64, N>) -> SVector<f64, N>| {
+            SVector::from_fn(|joint, _| T::from_lanes(|lane| of(of_lane(lane))[joint]))
+        };
+        let first = of_lane(0);
+        Self {
+            frequency_rad_s: first.frequency_rad_s,
+            offset: vector(&|fourier| fourier.offset),
+            harmonics: (0..first.harmonics.len())
+                .map(|k| (vector(&|fourier| fourier.harmonics[k].0), vector(&|fourier| fourier.harmonics[k].1)))
+                .collect(),
+        }
+    }
+
     /// Desired motion at `time_s`. Units: rad, rad/s, rad/s². Source: paper eq. (24).
+    #[inline(always)]
     pub fn at(&self, time_s: f64) -> Desired<T, N> {
         let mut desired = Desired { position: self.offset, velocity: SVector::zeros(), acceleration: SVector::zeros() };
         let (sin1, cos1) = Scalar::sin_cos(self.frequency_rad_s * time_s);

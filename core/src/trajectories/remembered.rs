@@ -19,7 +19,7 @@ impl<T: Scalar, const N: usize> Remembered<T, N> {
     }
 
     /// Desired motion at `time_s`: the same bits as the trajectory itself gives.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, time_s: f64) -> Desired<T, N> {
         let (last_s, desired) = self.last.get();
         if last_s.to_bits() == time_s.to_bits() {

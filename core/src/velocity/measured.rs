@@ -24,7 +24,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for Measured<T, N> {
 
     fn initialize(&self, _position: &SVector<T, N>, _states: &mut [T]) {}
 
-    #[inline]
+    #[inline(always)]
     fn estimate(
         &self,
         position: &SVector<T, N>,

@@ -32,7 +32,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for ModelFreeObserver<T, N>
         states[N..].fill(T::zero());
     }
 
-    #[inline]
+    #[inline(always)]
     fn estimate(
         &self,
         position: &SVector<T, N>,
@@ -41,16 +41,18 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for ModelFreeObserver<T, N>
         states: &[T],
     ) -> VelocityEstimate<T, N> {
         let (q_hat, xi) = states.split_at(N);
-        let z = SVector::<T, N>::from_fn(|i, _| position[i] - q_hat[i]);
-        let velocity = SVector::from_fn(|i, _| {
+        let mut z = SVector::<T, N>::zeros();
+        let mut velocity = SVector::<T, N>::zeros();
+        for i in 0..N {
+            z[i] = position[i] - q_hat[i];
             let e = position[i] - desired.position[i];
             let zeta = desired.velocity[i] - self.lambda_x[i] * e + self.k_d[i] * self.lambda_z[i] * xi[i];
-            zeta + self.k_d[i] * z[i]
-        });
+            velocity[i] = zeta + self.k_d[i] * z[i];
+        }
         VelocityEstimate { velocity, observer_error: z }
     }
 
-    #[inline]
+    #[inline(always)]
     fn derivative(&self, estimate: &VelocityEstimate<T, N>, derivative: &mut [T]) {
         let (q_hat_rate, xi_rate) = derivative.split_at_mut(N);
         let z = &estimate.observer_error;

@@ -2,7 +2,7 @@
 //!
 //! A second scalar beside f64, so the tests also prove that the core does not depend on one.
 
-use adaptarm_core::scalar::Scalar;
+use adaptarm_core::scalar::{Kernel, Scalar};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -96,6 +96,17 @@ impl One for Dual {
 
 impl Scalar for Dual {
     type Mask = bool;
+    const LANES: usize = 1;
+
+    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+        Self::splat(number(0))
+    }
+    fn lane(self, _n: usize) -> f64 {
+        self.value
+    }
+    fn compiled<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
     fn splat(value: f64) -> Self {
         Self::new(value, 0.0)
     }

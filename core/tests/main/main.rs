@@ -3,6 +3,7 @@
 mod convergence;
 mod documents;
 mod dual;
+mod lanes;
 mod laws;
 mod reference;
 mod replication;

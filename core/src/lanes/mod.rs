@@ -1,0 +1,121 @@
+//! Several runs side by side: numbers of 2, 4 or 8 lanes that take part in the physics as one [`Scalar`].
+//!
+//! Every operation works lane by lane, so that each lane has the bits that it would have alone. Which kinds of lanes a
+//! machine has is asked once, at run time ([`widths`]); vector instructions are used only inside [`Scalar::compiled`].
+
+#[cfg(test)]
+mod tests;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod wasm;
+#[cfg(target_arch = "x86_64")]
+mod x86_64;
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+pub(crate) use wasm::F64x2;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use x86_64::{F64x2, F64x4, F64x8};
+
+use crate::scalar::Scalar;
+
+/// Something to do with a kind of lanes that this machine has.
+pub(crate) trait WithLanes {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn with<T: Scalar>(self) -> Self::Output;
+}
+
+/// How many lanes this machine can work on side by side, most first; always ends in 1.
+pub fn widths() -> &'static [usize] {
+    #[cfg(target_arch = "x86_64")]
+    let widths = x86_64::widths();
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    let widths = &[2, 1];
+    #[cfg(not(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128"))))]
+    let widths = &[1];
+    widths
+}
+
+/// Does `work` with lanes of this width; `None` where the machine has none.
+pub(crate) fn with_lanes<W: WithLanes>(width: usize, work: W) -> Option<W::Output> {
+    if !widths().contains(&width) {
+        return None;
+    }
+    match width {
+        1 => Some(work.with::<f64>()),
+        #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+        2 => Some(work.with::<F64x2>()),
+        #[cfg(target_arch = "x86_64")]
+        4 => Some(work.with::<F64x4>()),
+        #[cfg(target_arch = "x86_64")]
+        8 => Some(work.with::<F64x8>()),
+        _ => None,
+    }
+}
+
+/// What a type of lanes needs beside its own instructions to be a [`Scalar`]: nalgebra's and num-traits' operators.
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+macro_rules! impl_operators {
+    ($lanes:ident) => {
+        impl_operators!($lanes, Add, add, AddAssign, add_assign);
+        impl_operators!($lanes, Sub, sub, SubAssign, sub_assign);
+        impl_operators!($lanes, Mul, mul, MulAssign, mul_assign);
+        impl_operators!($lanes, Div, div, DivAssign, div_assign);
+
+        impl std::ops::Neg for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.negated()
+            }
+        }
+
+        impl num_traits::Zero for $lanes {
+            #[inline(always)]
+            fn zero() -> Self {
+                Self::repeat(0.0)
+            }
+            #[inline(always)]
+            fn is_zero(&self) -> bool {
+                self.to_array() == [0.0; Self::WIDTH]
+            }
+        }
+
+        impl num_traits::One for $lanes {
+            #[inline(always)]
+            fn one() -> Self {
+                Self::repeat(1.0)
+            }
+        }
+
+        impl PartialEq for $lanes {
+            fn eq(&self, other: &Self) -> bool {
+                self.to_array() == other.to_array()
+            }
+        }
+
+        impl std::fmt::Debug for $lanes {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                self.to_array().fmt(f)
+            }
+        }
+    };
+    ($lanes:ident, $trait:ident, $method:ident, $assign:ident, $assign_method:ident) => {
+        impl std::ops::$trait for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                self.$method(other)
+            }
+        }
+
+        impl std::ops::$assign for $lanes {
+            #[inline(always)]
+            fn $assign_method(&mut self, other: Self) {
+                *self = self.$method(other);
+            }
+        }
+    };
+}
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+use impl_operators;

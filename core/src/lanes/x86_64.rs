@@ -1,0 +1,184 @@
+//! Lanes of x86-64: 2 with SSE2, which every such machine has, 4 with AVX2, 8 with AVX-512.
+//!
+//! The one place in the core with unsafe code: `std::arch` asks the caller to know that the machine has an instruction.
+//! Here [`super::with_lanes`] asks first, the types are the crate's own, and nothing else makes a value of them
+//! (docs/decisions/0015-lanes.md).
+#![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
+
+use super::impl_operators;
+use crate::scalar::{Kernel, Scalar};
+use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
+use std::arch::x86_64::*;
+
+/// How many lanes this machine has instructions for, most first; ends in 1.
+pub(super) fn widths() -> &'static [usize] {
+    if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+        &[8, 4, 2, 1]
+    } else if is_x86_feature_detected!("avx2") {
+        &[4, 2, 1]
+    } else {
+        &[2, 1]
+    }
+}
+
+/// A type of lanes from its vector, its mask and one intrinsic per operation.
+macro_rules! lanes {
+    (
+        $(#[$doc:meta])* $lanes:ident, $width:literal, $vector:ty, $mask:ty, $features:literal,
+        $add:ident, $sub:ident, $mul:ident, $div:ident, $repeat:ident, $xor:ident, $andnot:ident,
+        less: $less:expr, any: $any:expr, select: $select:expr,
+        bit: $bit:expr, power: $power:expr,
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub(crate) struct $lanes($vector);
+
+        // SAFETY, of every block below: a value of this type exists only on a machine with the instructions named here; see
+        // the head of this file. Arrays and vectors of as many numbers have the same layout.
+        impl $lanes {
+            const WIDTH: usize = $width;
+
+            #[inline(always)]
+            fn repeat(value: f64) -> Self {
+                unsafe { Self($repeat(value)) }
+            }
+            #[inline(always)]
+            fn from_array(numbers: [f64; $width]) -> Self {
+                unsafe { Self(std::mem::transmute::<[f64; $width], $vector>(numbers)) }
+            }
+            #[inline(always)]
+            fn to_array(self) -> [f64; $width] {
+                unsafe { std::mem::transmute::<$vector, [f64; $width]>(self.0) }
+            }
+            #[inline(always)]
+            fn negated(self) -> Self {
+                unsafe { Self($xor(self.0, $repeat(-0.0))) }
+            }
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                unsafe { Self($add(self.0, other.0)) }
+            }
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                unsafe { Self($sub(self.0, other.0)) }
+            }
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                unsafe { Self($mul(self.0, other.0)) }
+            }
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                unsafe { Self($div(self.0, other.0)) }
+            }
+        }
+        impl_operators!($lanes);
+
+        impl Scalar for $lanes {
+            type Mask = $mask;
+            const LANES: usize = $width;
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self::repeat(value)
+            }
+            #[inline(always)]
+            fn from_lanes(number: impl FnMut(usize) -> f64) -> Self {
+                Self::from_array(std::array::from_fn(number))
+            }
+            #[inline(always)]
+            fn lane(self, n: usize) -> f64 {
+                self.to_array()[n]
+            }
+            #[inline(always)]
+            fn compiled<K: Kernel>(kernel: K) -> K::Output {
+                #[target_feature(enable = $features)]
+                fn with_instructions<K: Kernel>(kernel: K) -> K::Output {
+                    kernel.run()
+                }
+                unsafe { with_instructions(kernel) }
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                if Self::any(Self::repeat(SIN_COS_LIMIT).less_than(self.abs())) {
+                    let both = self.to_array().map(Scalar::sin_cos);
+                    return (Self::from_array(both.map(|b| b.0)), Self::from_array(both.map(|b| b.1)));
+                }
+                transcendental::sin_cos(self)
+            }
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                transcendental::tanh(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                unsafe { Self($andnot($repeat(-0.0), self.0)) }
+            }
+            #[inline(always)]
+            fn less_than(self, other: Self) -> $mask {
+                unsafe { $less(self.0, other.0) }
+            }
+            #[inline(always)]
+            fn any(mask: $mask) -> bool {
+                #[allow(unused_unsafe, reason = "masks of eight lanes are plain numbers")]
+                unsafe {
+                    $any(mask)
+                }
+            }
+            #[inline(always)]
+            fn quadrant(self) -> ($mask, $mask, $mask) {
+                let n = self + Self::repeat(ROUNDING);
+                let next = n + Self::repeat(1.0);
+                unsafe { ($bit(n.0, 0), $bit(n.0, 1), $bit(next.0, 1)) }
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                // ROUNDING + 1023 is exact too, and its last bits are those of 1023.
+                let biased = self + Self::repeat(ROUNDING + 1023.0);
+                unsafe { Self($power(biased.0)) }
+            }
+            #[inline(always)]
+            fn select(mask: $mask, if_true: Self, if_false: Self) -> Self {
+                unsafe { Self($select(mask, if_true.0, if_false.0)) }
+            }
+        }
+    };
+}
+
+lanes! {
+    /// Two lanes, SSE2.
+    F64x2, 2, __m128d, __m128d, "sse2",
+    _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_set1_pd, _mm_xor_pd, _mm_andnot_pd,
+    less: _mm_cmplt_pd,
+    any: |mask| _mm_movemask_pd(mask) != 0,
+    select: |mask, a, b| _mm_or_pd(_mm_and_pd(mask, a), _mm_andnot_pd(mask, b)),
+    // The bit goes where the sign is, and from there over the lane.
+    bit: |n, bit: i64| {
+        let top = _mm_sll_epi64(_mm_castpd_si128(n), _mm_cvtsi64_si128(63 - bit));
+        _mm_castsi128_pd(_mm_shuffle_epi32::<0b11_11_01_01>(_mm_srai_epi32::<31>(top)))
+    },
+    power: |n| _mm_castsi128_pd(_mm_slli_epi64::<52>(_mm_castpd_si128(n))),
+}
+
+lanes! {
+    /// Four lanes, AVX2.
+    F64x4, 4, __m256d, __m256d, "avx2",
+    _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_set1_pd, _mm256_xor_pd, _mm256_andnot_pd,
+    less: _mm256_cmp_pd::<_CMP_LT_OQ>,
+    any: |mask| _mm256_movemask_pd(mask) != 0,
+    select: |mask, a, b| _mm256_blendv_pd(b, a, mask),
+    // Selection looks at the sign only.
+    bit: |n, bit: i64| _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(n), _mm_cvtsi64_si128(63 - bit))),
+    power: |n| _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(n))),
+}
+
+lanes! {
+    /// Eight lanes, AVX-512.
+    F64x8, 8, __m512d, __mmask8, "avx512f,avx512dq",
+    _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_set1_pd, _mm512_xor_pd, _mm512_andnot_pd,
+    less: _mm512_cmp_pd_mask::<_CMP_LT_OQ>,
+    any: |mask: __mmask8| mask != 0,
+    select: |mask, a, b| _mm512_mask_blend_pd(mask, b, a),
+    bit: |n, bit: i64| _mm512_test_epi64_mask(_mm512_castpd_si512(n), _mm512_set1_epi64(1 << bit)),
+    power: |n| _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(n))),
+}

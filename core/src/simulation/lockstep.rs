@@ -1,0 +1,219 @@
+//! Runs in lockstep: as many as a scalar has lanes, step by step together, each with the bits that it has alone.
+//!
+//! For fixed steps whose samples fall on them. A run that diverges ends for itself; its lane computes on, unheard. What it
+//! leaves are [`Snapshot`]s, as if each run had been alone in a [`super::Simulation`].
+
+use super::recorder::Recorder;
+use super::run::exceeded_joint;
+use super::{Divergence, Outcome, Settings, Snapshot, StateSpace};
+use crate::integrators::Rk4;
+use crate::scalar::{Kernel, Scalar};
+
+/// Lanes under way, whatever their scalar.
+pub(crate) trait Lockstep: Send {
+    /// Takes at most `max_steps` steps; true once every run has ended.
+    fn advance(&mut self, max_steps: u64) -> bool;
+    /// Steps taken.
+    fn step(&self) -> u64;
+    /// Each run as it stands.
+    fn snapshots(self: Box<Self>) -> Vec<Snapshot>;
+}
+
+/// Runs side by side, one per lane.
+pub(crate) struct Lanes<T: Scalar> {
+    system: Box<dyn StateSpace<T>>,
+    settings: Settings,
+    rk4: Rk4<T>,
+    /// Steps from one sample to the next.
+    every: u64,
+    state: Vec<T>,
+    /// State before the last step; where a run that diverges ends up.
+    before: Vec<T>,
+    /// A sample's evaluation gives the first slope of its step too.
+    slope: Vec<T>,
+    row: Vec<T>,
+    error: Vec<T>,
+    step: u64,
+    time_s: f64,
+    /// Of the runs that were asked for; lanes behind the last are not heard.
+    runs: Vec<LaneRun>,
+}
+
+/// One run among the lanes.
+struct LaneRun {
+    identity: String,
+    recorder: Recorder,
+    end: Option<End>,
+}
+
+/// How a run ended, and where.
+struct End {
+    outcome: Outcome,
+    step: u64,
+    time_s: f64,
+    state: Vec<f64>,
+}
+
+impl<T: Scalar> Lanes<T> {
+    /// Runs at their start, `identities` naming them; `None` where samples do not fall on steps.
+    pub fn new(identities: Vec<String>, system: Box<dyn StateSpace<T>>, settings: Settings) -> Option<Self> {
+        let every = settings.steps_on_grid()?;
+        let len = system.len();
+        let zeros = |len| vec![T::zero(); len];
+        let mut state = zeros(len);
+        system.initialize(&mut state);
+        let run = |identity| LaneRun { identity, recorder: Recorder::new(settings, 0), end: None };
+        Some(Self {
+            system,
+            settings,
+            rk4: Rk4::new(len),
+            every,
+            state,
+            before: zeros(len),
+            slope: zeros(len),
+            row: zeros(settings.columns.width() - 1),
+            error: zeros(settings.columns.joints),
+            step: 0,
+            time_s: 0.0,
+            runs: identities.into_iter().map(run).collect(),
+        })
+    }
+
+    fn take_step(&mut self) {
+        let is_sampled = self.step.is_multiple_of(self.every);
+        if is_sampled {
+            self.system.observe_and_derive(self.time_s, &self.state, &mut self.row, &mut self.slope);
+            self.record_row(false);
+        }
+        self.before.copy_from_slice(&self.state);
+        let end_s = self.settings.step_time_s(self.step + 1);
+        let (system, slope) = (&*self.system, &self.slope);
+        let mut is_known = is_sampled;
+        self.rk4.step(self.time_s, end_s, &mut self.state, |t, x, rate| {
+            if std::mem::take(&mut is_known) {
+                rate.copy_from_slice(slope);
+            } else {
+                system.derivative(t, x, rate);
+            }
+        });
+        self.time_s = end_s;
+        self.step += 1;
+        self.check();
+        if self.time_s >= self.settings.duration_s {
+            self.system.observe(self.time_s, &self.state, &mut self.row);
+            self.record_row(true);
+            for lane in 0..self.runs.len() {
+                if self.runs[lane].end.is_none() {
+                    self.end(lane, Outcome::Completed, false);
+                }
+            }
+        }
+    }
+
+    /// Ends the runs whose state is not finite or too far from its trajectory.
+    fn check(&mut self) {
+        let zero = T::compiled(SumOfZeros(&self.state));
+        self.system.tracking_error(self.time_s, &self.state, &mut self.error);
+        for lane in 0..self.runs.len() {
+            let reason = if zero.lane(lane).is_finite() {
+                exceeded_joint(self.error.iter().map(|e| e.lane(lane))).map(Divergence::TrackingError)
+            } else {
+                Some(Divergence::NotFinite)
+            };
+            if let Some(reason) = reason.filter(|_| self.runs[lane].end.is_none()) {
+                self.end(lane, Outcome::Diverged { at_s: self.time_s, reason }, true);
+            }
+        }
+    }
+
+    /// Records a row for every run that has not ended; one that is not finite ends its run. `stepped` says whether the row
+    /// belongs to the step just made, which then counts as the one that diverged.
+    fn record_row(&mut self, stepped: bool) {
+        for lane in 0..self.runs.len() {
+            let run = &mut self.runs[lane];
+            if run.end.is_some() {
+                continue;
+            }
+            let row = &self.row;
+            let recorded = run.recorder.record_row(|out| {
+                for (out, value) in out.iter_mut().zip(row) {
+                    *out = value.lane(lane);
+                }
+            });
+            if let Err(reason) = recorded {
+                self.end(lane, Outcome::Diverged { at_s: self.time_s, reason }, stepped);
+            }
+        }
+    }
+
+    /// Ends a run, in its state now or before the last step.
+    fn end(&mut self, lane: usize, outcome: Outcome, before: bool) {
+        let state = lane_of(if before { &self.before } else { &self.state }, lane);
+        self.runs[lane].end = Some(End { outcome, step: self.step, time_s: self.time_s, state });
+    }
+}
+
+fn lane_of<T: Scalar>(x: &[T], lane: usize) -> Vec<f64> {
+    x.iter().map(|x| x.lane(lane)).collect()
+}
+
+impl<T: Scalar> Lockstep for Lanes<T> {
+    fn advance(&mut self, max_steps: u64) -> bool {
+        for _ in 0..max_steps {
+            if self.runs.iter().all(|run| run.end.is_some()) {
+                return true;
+            }
+            self.take_step();
+        }
+        self.runs.iter().all(|run| run.end.is_some())
+    }
+
+    fn step(&self) -> u64 {
+        self.step
+    }
+
+    fn snapshots(self: Box<Self>) -> Vec<Snapshot> {
+        let Self { runs, settings, step, time_s, state, .. } = *self;
+        let evaluations_per_step = 4;
+        let snapshot = |(lane, run): (usize, LaneRun)| {
+            let (outcome, step, time_s, state) = match run.end {
+                Some(End { outcome, step, time_s, state }) => (Some(outcome), step, time_s, state),
+                None => (None, step, time_s, lane_of(&state, lane)),
+            };
+            Snapshot {
+                format: Snapshot::FORMAT.to_owned(),
+                core_version: crate::VERSION.to_owned(),
+                identity: run.identity,
+                step,
+                time_s,
+                next_step_s: settings.step_s,
+                evaluations: evaluations_per_step * step,
+                state,
+                rows: run.recorder.recording.into_rows(),
+                outcome,
+            }
+        };
+        runs.into_iter().enumerate().map(snapshot).collect()
+    }
+}
+
+/// Sum of zero times each number: no number in a lane where one is not finite.
+struct SumOfZeros<'a, T>(&'a [T]);
+
+impl<T: Scalar> Kernel for SumOfZeros<'_, T> {
+    type Output = T;
+    #[inline(always)]
+    fn run(self) -> T {
+        let mut sums = [T::zero(); 4];
+        let (blocks, rest) = self.0.as_chunks::<4>();
+        for block in blocks {
+            for n in 0..4 {
+                sums[n] += block[n] * T::zero();
+            }
+        }
+        for x in rest {
+            sums[0] += *x * T::zero();
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+}
