@@ -7,7 +7,7 @@ use super::recorder::Recorder;
 use super::run::exceeded_joint;
 use super::{Divergence, Outcome, Settings, Snapshot, StateSpace};
 use crate::integrators::Rk4;
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::Scalar;
 
 /// Lanes under way, whatever their scalar.
 pub(crate) trait Lockstep: Send {
@@ -27,10 +27,6 @@ pub(crate) struct Lanes<T: Scalar> {
     /// Steps from one sample to the next.
     every: u64,
     state: Vec<T>,
-    /// State before the last step; where a run that diverges ends up.
-    before: Vec<T>,
-    /// A sample's evaluation gives the first slope of its step too.
-    slope: Vec<T>,
     row: Vec<T>,
     error: Vec<T>,
     step: u64,
@@ -69,8 +65,6 @@ impl<T: Scalar> Lanes<T> {
             rk4: Rk4::new(len),
             every,
             state,
-            before: zeros(len),
-            slope: zeros(len),
             row: zeros(settings.columns.width() - 1),
             error: zeros(settings.columns.joints),
             step: 0,
@@ -82,23 +76,21 @@ impl<T: Scalar> Lanes<T> {
     fn take_step(&mut self) {
         let is_sampled = self.step.is_multiple_of(self.every);
         if is_sampled {
-            self.system.observe_and_derive(self.time_s, &self.state, &mut self.row, &mut self.slope);
+            // A sample's evaluation gives the first slope of its step too.
+            let slope = self.rk4.first_slope();
+            self.system.observe_and_derive(self.time_s, &self.state, &mut self.row, slope);
             self.record_row(false);
         }
-        self.before.copy_from_slice(&self.state);
-        let end_s = self.settings.step_time_s(self.step + 1);
-        let (system, slope) = (&*self.system, &self.slope);
-        let mut is_known = is_sampled;
-        self.rk4.step(self.time_s, end_s, &mut self.state, |t, x, rate| {
-            if std::mem::take(&mut is_known) {
-                rate.copy_from_slice(slope);
-            } else {
-                system.derivative(t, x, rate);
-            }
-        });
+        let (system, end_s) = (&*self.system, self.settings.step_time_s(self.step + 1));
+        let derivative = |t: f64, x: &[T], rate: &mut [T]| system.derivative(t, x, rate);
+        let finite = if is_sampled {
+            self.rk4.step_from_slope(self.time_s, end_s, &mut self.state, derivative)
+        } else {
+            self.rk4.step(self.time_s, end_s, &mut self.state, derivative)
+        };
         self.time_s = end_s;
         self.step += 1;
-        self.check();
+        self.check(finite);
         if self.time_s >= self.settings.duration_s {
             self.system.observe(self.time_s, &self.state, &mut self.row);
             self.record_row(true);
@@ -111,11 +103,10 @@ impl<T: Scalar> Lanes<T> {
     }
 
     /// Ends the runs whose state is not finite or too far from its trajectory.
-    fn check(&mut self) {
-        let zero = T::compiled(SumOfZeros(&self.state));
+    fn check(&mut self, finite: T) {
         self.system.tracking_error(self.time_s, &self.state, &mut self.error);
         for lane in 0..self.runs.len() {
-            let reason = if zero.lane(lane).is_finite() {
+            let reason = if finite.lane(lane).is_finite() {
                 exceeded_joint(self.error.iter().map(|e| e.lane(lane))).map(Divergence::TrackingError)
             } else {
                 Some(Divergence::NotFinite)
@@ -148,7 +139,7 @@ impl<T: Scalar> Lanes<T> {
 
     /// Ends a run, in its state now or before the last step.
     fn end(&mut self, lane: usize, outcome: Outcome, before: bool) {
-        let state = lane_of(if before { &self.before } else { &self.state }, lane);
+        let state = lane_of(if before { self.rk4.before() } else { &self.state }, lane);
         self.runs[lane].end = Some(End { outcome, step: self.step, time_s: self.time_s, state });
     }
 }
@@ -194,26 +185,5 @@ impl<T: Scalar> Lockstep for Lanes<T> {
             }
         };
         runs.into_iter().enumerate().map(snapshot).collect()
-    }
-}
-
-/// Sum of zero times each number: no number in a lane where one is not finite.
-struct SumOfZeros<'a, T>(&'a [T]);
-
-impl<T: Scalar> Kernel for SumOfZeros<'_, T> {
-    type Output = T;
-    #[inline(always)]
-    fn run(self) -> T {
-        let mut sums = [T::zero(); 4];
-        let (blocks, rest) = self.0.as_chunks::<4>();
-        for block in blocks {
-            for n in 0..4 {
-                sums[n] += block[n] * T::zero();
-            }
-        }
-        for x in rest {
-            sums[0] += *x * T::zero();
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 }

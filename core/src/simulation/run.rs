@@ -8,8 +8,8 @@ use crate::recording::Recording;
 /// The integrator of a run, with its work space.
 enum Stepper {
     /// Every sample falls on the start of a step: `every` steps from one to the next. What is computed for a sample is the
-    /// step's first slope too, kept in `slope` if `is_known`.
-    Rk4OnGrid { rk4: Rk4<f64>, every: u64, slope: Vec<f64>, is_known: bool },
+    /// step's first slope too.
+    Rk4OnGrid { rk4: Rk4<f64>, every: u64 },
     /// Samples fall inside steps: the slopes at the ends of a step serve to interpolate.
     Rk4 { rk4: Rk4<f64>, slopes: [Vec<f64>; 2] },
     /// The integrator interpolates.
@@ -40,7 +40,7 @@ impl Simulation {
         let len = system.len();
         let stepper = match settings.method {
             Method::Rk4 => match settings.steps_per_sample() {
-                Some(every) => Stepper::Rk4OnGrid { rk4: Rk4::new(len), every, slope: vec![0.0; len], is_known: false },
+                Some(every) => Stepper::Rk4OnGrid { rk4: Rk4::new(len), every },
                 None => Stepper::Rk4 { rk4: Rk4::new(len), slopes: [vec![0.0; len], vec![0.0; len]] },
             },
             Method::Dopri5(tolerances) => {
@@ -220,24 +220,30 @@ impl Simulation {
         if self.step >= self.settings.most_steps() {
             return Err(Divergence::TooManySteps(self.step));
         }
-        if let Stepper::Rk4OnGrid { every, slope, is_known, .. } = &mut self.stepper
-            && self.step.is_multiple_of(*every)
-        {
-            let (system, time_s, state) = (&*self.system, self.time_s, &self.state);
-            self.recorder.record_row(|row| system.observe_and_derive(time_s, state, row, slope))?;
-            *is_known = true;
-        }
+        let is_sampled = self.sample_on_grid()?;
         let start_s = self.time_s;
         self.before.copy_from_slice(&self.state);
-        self.time_s = self.integrate(start_s)?;
+        self.time_s = self.integrate(start_s, is_sampled)?;
         self.step += 1;
         check(&*self.system, self.time_s, &self.state, &mut self.error)
             .and_then(|()| self.sample(start_s, self.time_s))
             .inspect_err(|_| self.state.copy_from_slice(&self.before))
     }
 
-    /// Moves the state on from `start_s`; gives the time reached.
-    fn integrate(&mut self, start_s: f64) -> Result<f64, Divergence> {
+    /// Takes the sample that falls on the start of this step, if one does; its evaluation is the step's first slope too.
+    fn sample_on_grid(&mut self) -> Result<bool, Divergence> {
+        match &mut self.stepper {
+            Stepper::Rk4OnGrid { rk4, every } if self.step.is_multiple_of(*every) => {
+                let (system, time_s, state, slope) = (&*self.system, self.time_s, &self.state, rk4.first_slope());
+                self.recorder.record_row(|row| system.observe_and_derive(time_s, state, row, slope))?;
+                Ok(true)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// Moves the state on from `start_s`; gives the time reached. `knows_slope`: the integrator has the first slope already.
+    fn integrate(&mut self, start_s: f64, knows_slope: bool) -> Result<f64, Divergence> {
         let (system, evaluations) = (&*self.system, &mut self.evaluations);
         let counted = |t: f64, x: &[f64], rate: &mut [f64]| {
             *evaluations += 1;
@@ -245,19 +251,13 @@ impl Simulation {
         };
         let end_s = self.settings.step_time_s(self.step + 1);
         match &mut self.stepper {
-            Stepper::Rk4OnGrid { rk4, slope, is_known, .. } => {
-                rk4.step(start_s, end_s, &mut self.state, |t, x, rate| {
-                    if std::mem::take(is_known) {
-                        rate.copy_from_slice(slope);
-                    } else {
-                        system.derivative(t, x, rate);
-                    }
+            Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
+                if knows_slope {
+                    rk4.step_from_slope(start_s, end_s, &mut self.state, counted);
                     *evaluations += 1;
-                });
-                Ok(end_s)
-            }
-            Stepper::Rk4 { rk4, .. } => {
-                rk4.step(start_s, end_s, &mut self.state, counted);
+                } else {
+                    rk4.step(start_s, end_s, &mut self.state, counted);
+                }
                 Ok(end_s)
             }
             Stepper::Dopri5(dopri5) => dopri5
