@@ -5,7 +5,6 @@
 //! Square root is exact everywhere and uses the hardware.
 //! A SIMD type takes part by implementing [`Scalar`]: comparisons give masks, and branches on data are [`Scalar::select`].
 
-use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT, TANH_LIMIT};
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 use std::ops::Neg;
@@ -47,6 +46,11 @@ pub trait Scalar:
     fn splat(value: f64) -> Self;
     /// `(sin x, cos x)`; `x` in rad.
     fn sin_cos(self) -> (Self, Self);
+    /// `(sin a, cos a)` and `(sin b, cos b)`, with the bits of [`Scalar::sin_cos`].
+    #[inline(always)]
+    fn sin_cos_of_two(a: Self, b: Self) -> ((Self, Self), (Self, Self)) {
+        (a.sin_cos(), b.sin_cos())
+    }
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
     /// Hyperbolic tangent of each number, with the bits of [`Scalar::tanh`].
@@ -78,71 +82,9 @@ pub trait Scalar:
     }
 }
 
-impl Scalar for f64 {
-    type Mask = bool;
-    const LANES: usize = 1;
-
-    #[inline(always)]
-    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
-        number(0)
-    }
-    #[inline(always)]
-    fn lane(self, _n: usize) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn compiled<K: Kernel>(kernel: K) -> K::Output {
-        kernel.run()
-    }
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        // Only an arm that spins out of control gets here; its numbers should still be those of its angles.
-        if SIN_COS_LIMIT < self.abs() { libm::sincos(self) } else { transcendental::sin_cos(self) }
-    }
-    #[inline(always)]
-    fn tanh(self) -> Self {
-        // The same bits as the whole computation gives; dry friction is there most of the time.
-        if TANH_LIMIT <= self.abs() { f64::copysign(1.0, self) } else { transcendental::tanh(self) }
-    }
-    #[inline(always)]
-    fn tanh_each(x: &mut [Self]) {
-        let mut padded = [0.0; 16];
-        padded[..x.len()].copy_from_slice(x);
-        let count = x.len().next_multiple_of(2);
-        for x in &mut padded[..count] {
-            *x = transcendental::tanh(*x);
-        }
-        x.copy_from_slice(&padded[..x.len()]);
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-    #[inline(always)]
-    fn less_than(self, other: Self) -> bool {
-        self < other
-    }
-    #[inline(always)]
-    fn any(mask: bool) -> bool {
-        mask
-    }
-    #[inline(always)]
-    fn quadrant(self) -> (bool, bool, bool) {
-        let n = (self + ROUNDING).to_bits();
-        (n & 1 != 0, n & 2 != 0, (n + 1) & 2 != 0)
-    }
-    #[inline(always)]
-    fn power_of_two(self) -> Self {
-        Self::from_bits(((self + ROUNDING).to_bits() + 1023) << 52)
-    }
-    #[inline(always)]
-    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
-        if mask { if_true } else { if_false }
-    }
+/// `(sin x, cos x)` of any angle, rad; libm on every target.
+pub(crate) fn sin_cos_of_any(x: f64) -> (f64, f64) {
+    libm::sincos(x)
 }
 
 /// `base^exponent` for step-size control; libm on every target.

@@ -15,6 +15,7 @@ mod steps;
 mod test;
 mod tidy;
 mod tools;
+mod valgrind;
 mod wasm_toolchain;
 mod workspace;
 
@@ -97,9 +98,9 @@ pub(crate) struct ServeArgs {
 
 /// Run every check: house rules, formatting, lints, unit tests, real server, real browser, optimised and not.
 ///
-/// Stops at the first failing step and prints the command that repeats it. Without a browser, PostgreSQL or Python their
-/// tests show as ignored; `REQUIRE_BROWSER=1`, `REQUIRE_POSTGRES=1`, `REQUIRE_PYTHON=1` (implied by `CI=true`) make that
-/// a failure.
+/// Stops at the first failing step and prints the command that repeats it. Without a browser, PostgreSQL, Python or
+/// valgrind their tests show as ignored; `REQUIRE_BROWSER=1`, `REQUIRE_POSTGRES=1`, `REQUIRE_PYTHON=1`, `REQUIRE_VALGRIND=1`
+/// (implied by `CI=true`) make that a failure.
 #[derive(Args)]
 pub(crate) struct TestArgs {
     /// The long forms: 20 000 random cases per property instead of 256, and an hour of crashes, load and fuzzing.
@@ -166,5 +167,6 @@ pub(crate) fn setup(workspace: &Workspace, purpose: Purpose) -> Result<()> {
 /// What end-to-end tests use beside a browser.
 pub(crate) fn setup_services(workspace: &Workspace) -> Result<()> {
     postgres::ensure()?;
+    valgrind::ensure()?;
     python::ensure(workspace)
 }

@@ -11,6 +11,7 @@ use crate::postgres::{self, POSTGRES};
 use crate::python::{self, PYTHON};
 use crate::requirement::Requirement;
 use crate::steps::{Outcome, Steps};
+use crate::valgrind::VALGRIND;
 use crate::workspace::{Workspace, build_server};
 use crate::{DistArgs, Purpose, TestArgs, dist, setup, setup_services, tidy, tools};
 
@@ -76,7 +77,7 @@ fn tests(workspace: &Workspace, args: &TestArgs) -> Result<Command> {
     if args.soak {
         command.env("PROPTEST_CASES", SOAK_CASES).env("ADAPTARM_SOAK", "1");
     }
-    for requirement in [BROWSER, POSTGRES, PYTHON].into_iter().filter(Requirement::is_required) {
+    for requirement in [BROWSER, POSTGRES, PYTHON, VALGRIND].into_iter().filter(Requirement::is_required) {
         command.env(requirement.variable(), "1");
     }
     if args.no_browser {

@@ -50,13 +50,13 @@ impl<T: Scalar> Rk4<T> {
         let h = end_s - start_s;
         let middle_s = start_s + 0.5 * h;
         let Self { sum, slope, stage } = self;
-        T::compiled(Stage { stage, x, h: 0.5 * h, slope: sum });
+        T::compiled(Stage { out: stage, x, h: 0.5 * h, slope: sum });
         f(middle_s, stage, slope);
-        T::compiled(NextStage { stage, sum, x, h: 0.5 * h, slope });
+        T::compiled(NextStage { out: stage, sum, x, h: 0.5 * h, slope });
         f(middle_s, stage, slope);
-        T::compiled(NextStage { stage, sum, x, h, slope });
+        T::compiled(NextStage { out: stage, sum, x, h, slope });
         f(end_s, stage, slope);
-        let finite = T::compiled(End { end: stage, x, h, sum, slope });
+        let finite = T::compiled(End { out: stage, x, h, sum, slope });
         std::mem::swap(x, stage);
         finite
     }
@@ -64,7 +64,7 @@ impl<T: Scalar> Rk4<T> {
 
 /// `stage = x + h k`.
 struct Stage<'a, T> {
-    stage: &'a mut [T],
+    out: &'a mut [T],
     x: &'a [T],
     h: f64,
     slope: &'a [T],
@@ -76,7 +76,7 @@ impl<T: Scalar> Kernel for Stage<'_, T> {
     #[inline(always)]
     fn run(self) {
         let h = T::splat(self.h);
-        for ((stage, x), k) in self.stage.iter_mut().zip(self.x).zip(self.slope) {
+        for ((stage, x), k) in self.out.iter_mut().zip(self.x).zip(self.slope) {
             *stage = *x + h * *k;
         }
     }
@@ -84,7 +84,7 @@ impl<T: Scalar> Kernel for Stage<'_, T> {
 
 /// `sum += 2 k`, `stage = x + h k`.
 struct NextStage<'a, T> {
-    stage: &'a mut [T],
+    out: &'a mut [T],
     sum: &'a mut [T],
     x: &'a [T],
     h: f64,
@@ -97,7 +97,7 @@ impl<T: Scalar> Kernel for NextStage<'_, T> {
     #[inline(always)]
     fn run(self) {
         let (h, two) = (T::splat(self.h), T::splat(2.0));
-        for (((stage, sum), x), k) in self.stage.iter_mut().zip(self.sum).zip(self.x).zip(self.slope) {
+        for (((stage, sum), x), k) in self.out.iter_mut().zip(self.sum).zip(self.x).zip(self.slope) {
             *sum += two * *k;
             *stage = *x + h * *k;
         }
@@ -106,7 +106,7 @@ impl<T: Scalar> Kernel for NextStage<'_, T> {
 
 /// `end = x + h/6 (k1 + 2 k2 + 2 k3 + k4)`.
 struct End<'a, T> {
-    end: &'a mut [T],
+    out: &'a mut [T],
     x: &'a [T],
     h: f64,
     sum: &'a [T],
@@ -121,7 +121,7 @@ impl<T: Scalar> Kernel for End<'_, T> {
         let (sixth, zero) = (T::splat(self.h / 6.0), T::zero());
         // Zero times a number that is not finite is no number; four sums side by side have less to wait for.
         let mut zeros = [zero; 4];
-        for (n, (((end, x), sum), k)) in self.end.iter_mut().zip(self.x).zip(self.sum).zip(self.slope).enumerate() {
+        for (n, (((end, x), sum), k)) in self.out.iter_mut().zip(self.x).zip(self.sum).zip(self.slope).enumerate() {
             // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
             // does), several small increments would each be lost and leave it beside the equilibrium.
             *end = *x + sixth * (*sum + *k);

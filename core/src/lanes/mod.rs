@@ -3,6 +3,7 @@
 //! Every operation works lane by lane, so that each lane has the bits that it would have alone. Which kinds of lanes a
 //! machine has is asked once, at run time ([`widths`]); vector instructions are used only inside [`Scalar::compiled`].
 
+mod one;
 #[cfg(test)]
 mod tests;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]

@@ -3,6 +3,7 @@
 use super::impl_operators;
 use crate::scalar::{Kernel, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
+#[allow(clippy::wildcard_imports, reason = "twenty intrinsics")]
 use std::arch::wasm32::*;
 
 /// Two lanes, simd128.
@@ -18,11 +19,11 @@ impl F64x2 {
         Self(f64x2_splat(value))
     }
     #[inline(always)]
-    fn from_array([a, b]: [f64; 2]) -> Self {
+    pub(super) fn from_array([a, b]: [f64; 2]) -> Self {
         Self(f64x2(a, b))
     }
     #[inline(always)]
-    fn to_array(self) -> [f64; 2] {
+    pub(super) fn to_array(self) -> [f64; 2] {
         [f64x2_extract_lane::<0>(self.0), f64x2_extract_lane::<1>(self.0)]
     }
     #[inline(always)]

@@ -8,6 +8,7 @@
 use super::impl_operators;
 use crate::scalar::{Kernel, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
+#[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
 use std::arch::x86_64::*;
 
 /// How many lanes this machine has instructions for, most first; ends in 1.
@@ -44,11 +45,11 @@ macro_rules! lanes {
                 unsafe { Self($repeat(value)) }
             }
             #[inline(always)]
-            fn from_array(numbers: [f64; $width]) -> Self {
+            pub(super) fn from_array(numbers: [f64; $width]) -> Self {
                 unsafe { Self(std::mem::transmute::<[f64; $width], $vector>(numbers)) }
             }
             #[inline(always)]
-            fn to_array(self) -> [f64; $width] {
+            pub(super) fn to_array(self) -> [f64; $width] {
                 unsafe { std::mem::transmute::<$vector, [f64; $width]>(self.0) }
             }
             #[inline(always)]

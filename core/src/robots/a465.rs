@@ -199,8 +199,7 @@ impl Robot<N, P> for CrsA465 {
 
     #[inline(always)]
     fn geometry<T: Scalar>(q: &SVector<T, N>) -> Geometry<T> {
-        let (s2, c2) = q[1].sin_cos();
-        let (s3, c3) = q[2].sin_cos();
+        let ((s2, c2), (s3, c3)) = T::sin_cos_of_two(q[1], q[2]);
         let c23 = c2 * c3 - s2 * s3;
         let s23 = s2 * c3 + c2 * s3;
         let two = T::splat(2.0);

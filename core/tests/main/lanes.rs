@@ -36,9 +36,11 @@ fn varied(scheme: Scheme, n: usize) -> Scenario {
     let scale = |gains: &mut [f64]| gains.iter_mut().for_each(|gain| *gain *= factor);
     match &mut document.scheme {
         SchemeDocument::Proposed(Some(gains)) => {
-            [&mut gains.k_v, &mut gains.lambda, &mut gains.lambda_z, &mut gains.lambda_x, &mut gains.k_d]
-                .into_iter()
-                .for_each(|gains| scale(gains));
+            scale(&mut gains.k_v);
+            scale(&mut gains.lambda);
+            scale(&mut gains.lambda_z);
+            scale(&mut gains.lambda_x);
+            scale(&mut gains.k_d);
             scale(&mut gains.gamma_adapt);
             gains.beta *= factor;
             gains.projection.lower_margin *= factor;

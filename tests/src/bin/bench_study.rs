@@ -1,15 +1,120 @@
-//! How fast the default study is, natively on one core: `cargo xtask bench`.
+//! How fast the core is, natively: `cargo xtask bench`.
 //!
-//! Prints the median, fastest and slowest of 15 rounds per scheme, in milliseconds and microseconds per step. The schemes
-//! take turns within a round, so that a machine whose speed drifts slows them all alike.
+//! The default study on one core: median, fastest and slowest of 15 rounds per scheme, in milliseconds and microseconds per
+//! step. Then ratios that should be one: time per step of long runs against short ones, and two threads against one over a
+//! batch. What is compared takes turns within a round, so that a machine whose speed drifts slows all alike.
 
-use adaptarm_core::scenario::{Scenario, Scheme};
+use adaptarm_core::lanes;
+use adaptarm_core::scenario::{Scenario, Scheme, run_each};
 use anyhow::Result;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 const ROUNDS: usize = 15;
 
 fn main() -> Result<()> {
+    study()?;
+    durations()?;
+    threads()
+}
+
+/// Seconds that `work` takes.
+fn seconds(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Time per step of runs of 3 s to 3000 s, as often one after another as makes 3000 s, against the shortest.
+fn durations() -> Result<()> {
+    const DURATIONS_S: [f64; 4] = [3.0, 30.0, 300.0, 3000.0];
+    const DURATION_ROUNDS: usize = 7;
+    let scenario = |duration_s: f64| {
+        let mut document = Scheme::Proposed.paper();
+        document.integration.duration_s = duration_s;
+        // As many per second, whatever the duration.
+        document.recording.samples = (10.0 * duration_s) as usize;
+        Scenario::new(document)
+    };
+    let scenarios = DURATIONS_S.into_iter().map(scenario).collect::<Result<Vec<_>, _>>()?;
+    let mut ratios = vec![Vec::new(); DURATIONS_S.len()];
+    for _ in 0..DURATION_ROUNDS {
+        let times: Vec<f64> = scenarios
+            .iter()
+            .zip(DURATIONS_S)
+            .map(|(scenario, duration_s)| {
+                let runs = (DURATIONS_S[3] / duration_s) as usize;
+                seconds(|| {
+                    for _ in 0..runs {
+                        scenario.start().advance(u64::MAX);
+                    }
+                })
+            })
+            .collect();
+        for (ratios, time) in ratios.iter_mut().zip(&times) {
+            ratios.push(time / times[0]);
+        }
+    }
+    println!("\nProposed scheme, 3000 s in runs of one duration, {DURATION_ROUNDS} rounds: time against runs of 3 s");
+    for (duration_s, ratios) in DURATIONS_S.into_iter().zip(ratios) {
+        println!("{duration_s:>8} s{:>10.3}", median(ratios));
+    }
+    Ok(())
+}
+
+/// A batch of different runs on one thread against two.
+fn threads() -> Result<()> {
+    const RUNS: usize = 1000;
+    const THREAD_ROUNDS: usize = 7;
+    let scenarios = (0..RUNS)
+        .map(|n| {
+            let mut document = Scheme::Proposed.paper();
+            document.integration.duration_s = 1.2;
+            document.recording.samples = 300;
+            document.plant.theta_scale = Some(vec![1.0 + n as f64 / RUNS as f64; 18]);
+            Scenario::new(document)
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let run = |scenarios: &[Scenario]| {
+        let _ = run_each(scenarios, |_, run| {
+            std::hint::black_box(run);
+            ControlFlow::Continue(())
+        });
+    };
+    let mut ratios = Vec::new();
+    let mut one_thread_s = Vec::new();
+    for _ in 0..THREAD_ROUNDS {
+        let one = seconds(|| run(&scenarios));
+        let two = seconds(|| {
+            std::thread::scope(|scope| {
+                for half in scenarios.chunks(RUNS.div_ceil(2)) {
+                    scope.spawn(|| run(half));
+                }
+            });
+        });
+        ratios.push(one / two);
+        one_thread_s.push(one);
+    }
+    println!(
+        "\nBatch of {RUNS} different runs of 1.2 s, proposed scheme, {} side by side, {THREAD_ROUNDS} rounds:",
+        lanes::widths()[0]
+    );
+    println!(
+        "one thread {:.3} s ({:.3} us/step with reports), two threads {:.2} times as fast",
+        median(one_thread_s.clone()),
+        median(one_thread_s) * 1e6 / (RUNS as f64 * 1200.0),
+        median(ratios)
+    );
+    Ok(())
+}
+
+/// The default study.
+fn study() -> Result<()> {
     let scenarios =
         Scheme::ALL.into_iter().map(|scheme| Scenario::new(scheme.paper())).collect::<Result<Vec<_>, _>>()?;
     let mut times_ms = vec![Vec::with_capacity(ROUNDS); scenarios.len() + 1];

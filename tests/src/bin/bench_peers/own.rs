@@ -1,10 +1,11 @@
 //! Our own contestants. They run in a process of their own, as the peers do: this program, started with [`MODE`].
 //!
-//! A run is all of [`Scenario::run`]: 3000 samples recorded and hashed, and the report's metrics, which peers do not do.
+//! Each records 3000 samples, which peers do not do; one makes the report too (hash of the samples, metrics).
 
 use crate::measurement::{Contestant, SIGNALS, Steps};
+use adaptarm_core::lanes;
 use adaptarm_core::recording::{Recording, Signal};
-use adaptarm_core::scenario::{Scenario, Scheme};
+use adaptarm_core::scenario::{Scenario, Scheme, SideBySide};
 use adaptarm_core::trajectories::Fourier;
 use anyhow::{Context, Result};
 use serde_json::{Map, Value, json};
@@ -19,19 +20,52 @@ const ROWS: usize = 25;
 /// One of our ways to run a scenario.
 struct Own {
     name: &'static str,
-    /// Runs once; gives what was recorded and how long one simulation took, s.
+    /// Runs; gives what was recorded and how long one simulation took, s.
     run: fn(&Scenario) -> (Recording, f64),
 }
 
-/// Every way of ours. Another one (many runs side by side, say) is another line.
+/// Runs of a batch.
+const BATCH: usize = 64;
+
+/// Every way of ours. Another one is another line.
 fn all() -> Vec<Own> {
-    vec![Own { name: "adaptarm, scalar", run: scalar }]
+    vec![
+        Own { name: "adaptarm, scalar", run: scalar },
+        Own { name: "adaptarm, scalar, with report", run: with_report },
+        Own { name: "adaptarm, batch of 64, per run", run: batch },
+    ]
 }
 
 fn scalar(scenario: &Scenario) -> (Recording, f64) {
     let start = Instant::now();
+    let mut simulation = scenario.start();
+    simulation.advance(u64::MAX);
+    let seconds = start.elapsed().as_secs_f64();
+    (simulation.into_recording(), seconds)
+}
+
+fn with_report(scenario: &Scenario) -> (Recording, f64) {
+    let start = Instant::now();
     let run = std::hint::black_box(scenario.run());
     (run.recording, start.elapsed().as_secs_f64())
+}
+
+/// As many side by side as the machine has lanes, group after group. Every lane is held to the bits of a run alone.
+fn batch(scenario: &Scenario) -> (Recording, f64) {
+    let width = lanes::widths()[0];
+    let group = vec![scenario; width];
+    let mut seconds = 0.0;
+    let mut runs = Vec::new();
+    for _ in 0..BATCH / width {
+        let start = Instant::now();
+        let Some(mut lanes) = SideBySide::start(&group, width) else { continue };
+        lanes.advance(u64::MAX);
+        seconds += start.elapsed().as_secs_f64();
+        runs = lanes.finish();
+    }
+    let alone = scenario.run();
+    assert!(runs.iter().all(|run| *run == alone), "a lane has other bits than a run alone");
+    (alone.recording, seconds / BATCH as f64)
 }
 
 /// Ours as contestants; the first is what others are compared with.
