@@ -12,6 +12,7 @@ pub mod adaptation;
 pub mod control;
 pub mod decomposition;
 pub mod dynamics;
+pub mod effects;
 pub mod experiments;
 #[cfg(feature = "figures")]
 pub mod figures;

@@ -92,6 +92,11 @@ pub(crate) fn power(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// Natural logarithm, for random numbers; libm on every target.
+pub(crate) fn log(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// Inverse hyperbolic sine, for axes that are linear about zero and logarithmic far from it; libm on every target.
 #[cfg(feature = "figures")]
 pub(crate) fn inverse_sinh(x: f64) -> f64 {

@@ -2,15 +2,21 @@
 //!
 //! The third of the three choices that make a scheme. A law may integrate states of its own beside θ̂.
 
+mod any;
 mod composite;
 mod filtered_regressor;
 mod gradient;
+mod least_squares;
+mod modification;
 mod prediction_memory;
 mod projection;
 
+pub use any::AnyAdaptation;
 pub use composite::{CompositeAdaptation, CompositeLaw};
 pub use filtered_regressor::FilteredRegressor;
 pub use gradient::GradientAdaptation;
+pub use least_squares::LeastSquaresAdaptation;
+pub use modification::Modification;
 pub use prediction_memory::PredictionMemory;
 pub use projection::Projection;
 
@@ -27,9 +33,9 @@ pub struct AdaptationInput<'a, R: Robot<N, P>, T: Scalar, const N: usize, const 
     pub velocity: &'a SVector<T, N>,
     /// `sgn(v*)`, as regularised; only filled in for laws that filter.
     pub sign_velocity: &'a SVector<T, N>,
-    /// Applied torque, N·m.
+    /// Torque that the controller commands, N·m; without actuator limits it is the applied one.
     pub torque: &'a SVector<T, N>,
-    /// `Yᵀ s` of the feedback law.
+    /// `Yᵀ s` of the feedback law, modified where a [`Modification`] says so.
     pub gradient: &'a SVector<T, P>,
     /// Estimates θ̂.
     pub theta_hat: &'a [T],

@@ -89,6 +89,9 @@ pub const fn scheme_style(scheme: Scheme, theme: Theme) -> (Rgb, Dash) {
         Scheme::Proposed => Dash(None),
         Scheme::TangArteaga => Dash(Some((8, 4))),
         Scheme::SlotineLi => Dash(Some((2, 3))),
+        Scheme::Pd => Dash(Some((12, 3))),
+        Scheme::PdGravity => Dash(Some((6, 2))),
+        Scheme::ComputedTorque => Dash(Some((4, 4))),
     };
     let color = match (scheme, theme) {
         (Scheme::Proposed, Theme::Light) => (0, 84, 166),
@@ -97,6 +100,12 @@ pub const fn scheme_style(scheme: Scheme, theme: Theme) -> (Rgb, Dash) {
         (Scheme::TangArteaga, Theme::Dark) => (255, 159, 82),
         (Scheme::SlotineLi, Theme::Light) => (0, 122, 94),
         (Scheme::SlotineLi, Theme::Dark) => (88, 214, 170),
+        (Scheme::Pd, Theme::Light) => (107, 63, 160),
+        (Scheme::Pd, Theme::Dark) => (190, 160, 255),
+        (Scheme::PdGravity, Theme::Light) => (160, 30, 80),
+        (Scheme::PdGravity, Theme::Dark) => (255, 140, 180),
+        (Scheme::ComputedTorque, Theme::Light) => (85, 85, 85),
+        (Scheme::ComputedTorque, Theme::Dark) => (190, 190, 190),
     };
     (color, dash)
 }
@@ -189,7 +198,7 @@ mod tests {
         for theme in Theme::ALL {
             let paper = theme.background();
             let mut colors = vec![theme.truth(), theme.limit()];
-            for scheme in Scheme::ALL {
+            for scheme in Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS) {
                 let (color, dash) = scheme_style(scheme, theme);
                 let faded = Line::of_run(color, dash, true, theme);
                 assert!(

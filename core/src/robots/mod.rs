@@ -6,10 +6,12 @@
 
 mod a465;
 mod kinematics;
+mod payload;
 mod structure;
 
 pub use a465::CrsA465;
 pub use kinematics::{ArmPoints, Kinematics, Point, distance_m};
+pub use payload::payload_parameters;
 pub use structure::{count_entries, count_pairs, list_entries, list_pairs};
 
 use crate::scalar::Scalar;

@@ -21,7 +21,7 @@ use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
 
 /// What the lanes of a scalar take their numbers from, one per lane; lanes behind the last repeat it.
-struct Lanes<'a, D>(&'a [D]);
+pub(super) struct Lanes<'a, D>(pub(super) &'a [D]);
 
 impl<D> Lanes<'_, D> {
     fn of(&self, lane: usize) -> &D {
@@ -57,31 +57,41 @@ pub(super) fn closed_loop<R: Robot<N, P>, T: Scalar, const N: usize, const P: us
         };
     }
     match &documents[0].scheme {
-        SchemeDocument::SlotineLi(_) => slotine_li::<R, T, N, P>(documents, &Lanes(&gains!(SlotineLi))),
-        SchemeDocument::TangArteaga(_) => tang_arteaga::<R, T, N, P>(documents, &Lanes(&gains!(TangArteaga))),
-        SchemeDocument::Proposed(_) => proposed::<R, T, N, P>(documents, &Lanes(&gains!(Proposed))),
+        SchemeDocument::SlotineLi(_) => {
+            let (feedback, adaptation) = slotine_li::<T, N, P>(&Lanes(&gains!(SlotineLi)));
+            assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+        }
+        SchemeDocument::TangArteaga(_) => {
+            let (feedback, adaptation) = tang_arteaga::<R, T, N, P>(&Lanes(&gains!(TangArteaga)));
+            assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+        }
+        SchemeDocument::Proposed(_) => {
+            let (observer, feedback, adaptation) = proposed::<R, T, N, P>(&Lanes(&gains!(Proposed)));
+            assemble::<R, _, _, T, N, P>(documents, observer, feedback, adaptation)
+        }
+        SchemeDocument::Pd(_) | SchemeDocument::PdGravity(_) | SchemeDocument::ComputedTorque(_) => {
+            unreachable!("what is beyond the paper is built by `beyond`, and never in lanes")
+        }
     }
 }
 
 /// Slotine and Li: measured velocity, gradient adaptation. Source: paper eq. (3) to (7).
-fn slotine_li<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    documents: &[&ScenarioDocument],
+pub(super) fn slotine_li<T: Scalar, const N: usize, const P: usize>(
     gains: &Lanes<SlotineLiGains>,
-) -> Box<dyn StateSpace<T>> {
+) -> (SlidingFeedback<T, N>, GradientAdaptation<T, P>) {
     let feedback = SlidingFeedback {
         gain: gains.vector(|gains| &gains.k_s),
         lambda: gains.vector(|gains| &gains.lambda),
         coriolis_velocity: CoriolisVelocity::Estimated,
     };
     let adaptation = GradientAdaptation { gain: gains.vector::<T, P>(|gains| &gains.gamma_adapt) };
-    assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+    (feedback, adaptation)
 }
 
 /// Tang and Arteaga: measured velocity, composite adaptation. Source: paper eq. (8) to (12).
-fn tang_arteaga<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    documents: &[&ScenarioDocument],
+pub(super) fn tang_arteaga<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
     gains: &Lanes<TangArteagaGains>,
-) -> Box<dyn StateSpace<T>> {
+) -> (SlidingFeedback<T, N>, CompositeAdaptation<R, T, N, P>) {
     let feedback = SlidingFeedback {
         gain: gains.vector(|gains| &gains.k_s),
         lambda: gains.vector(|gains| &gains.lambda),
@@ -95,14 +105,13 @@ fn tang_arteaga<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
             memory_gain: gains.scalar(|gains| gains.delta),
         },
     };
-    assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+    (feedback, adaptation)
 }
 
 /// Proposed: observed velocity, composite adaptation with projection. Source: paper eq. (13) to (23).
-fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
-    documents: &[&ScenarioDocument],
+pub(super) fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
     gains: &Lanes<ProposedGains>,
-) -> Box<dyn StateSpace<T>> {
+) -> (ModelFreeObserver<T, N>, SlidingFeedback<T, N>, CompositeAdaptation<R, T, N, P>) {
     let observer = ModelFreeObserver {
         lambda_z: gains.vector(|gains| &gains.lambda_z),
         lambda_x: gains.vector(|gains| &gains.lambda_x),
@@ -132,10 +141,10 @@ fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
             projection,
         },
     };
-    assemble::<R, _, _, T, N, P>(documents, observer, feedback, adaptation)
+    (observer, feedback, adaptation)
 }
 
-fn measured<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Measured<T, N> {
+pub(super) fn measured<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Measured<T, N> {
     Measured { start: trajectory(documents).at(0.0).position }
 }
 
@@ -165,7 +174,7 @@ where
     })
 }
 
-fn friction_sign<T: Scalar>(documents: &[&ScenarioDocument]) -> FrictionSign<T> {
+pub(super) fn friction_sign<T: Scalar>(documents: &[&ScenarioDocument]) -> FrictionSign<T> {
     FrictionSign::from_widths(|lane| Lanes(documents).of(lane).plant.friction.width_rad_s)
 }
 
@@ -197,7 +206,7 @@ pub(super) fn has_positive_inertia(theta: &[f64]) -> bool {
     dynamics::has_positive_inertia::<CrsA465, 3, 18>(&SVector::from_column_slice(theta))
 }
 
-fn trajectory<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Fourier<T, N> {
+pub(super) fn trajectory<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Fourier<T, N> {
     let fourier: Vec<_> = documents.iter().map(|document| fourier(&document.trajectory)).collect();
     Fourier::side_by_side(|lane| &fourier[lane.min(fourier.len() - 1)])
 }

@@ -3,7 +3,8 @@
 //! Only shapes and defaults live here; what is allowed is decided in `validate`. Every field but `format` and `scheme`
 //! may be left out and means what the paper does, or what docs/physics.md chose where the paper is silent.
 
-use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
+use super::beyond::{AdaptationDocument, EffectsDocument, VelocityDocument};
+use super::gains::{ComputedTorqueGains, PdGains, PdGravityGains, ProposedGains, SlotineLiGains, TangArteagaGains};
 use serde::{Deserialize, Serialize};
 
 /// The format that this version reads and writes.
@@ -28,6 +29,15 @@ pub struct ScenarioDocument {
     pub trajectory: TrajectoryDocument,
     /// Which controller.
     pub scheme: SchemeDocument,
+    /// Velocity source in place of the scheme's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<VelocityDocument>,
+    /// Changes to the scheme's adaptation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptation: Option<AdaptationDocument>,
+    /// Imperfections of arm, sensors and computer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effects: Option<EffectsDocument>,
     /// How the run starts.
     #[serde(default)]
     pub initial: InitialDocument,
@@ -133,6 +143,12 @@ pub enum SchemeDocument {
     TangArteaga(Option<TangArteagaGains>),
     /// Slotine and Li (1987). Source: paper section 3.1.
     SlotineLi(Option<SlotineLiGains>),
+    /// Yardstick: PD.
+    Pd(Option<PdGains>),
+    /// Yardstick: PD with gravity. Source: Takegaki and Arimoto (1981).
+    PdGravity(Option<PdGravityGains>),
+    /// Yardstick: computed torque. Source: Luh, Walker and Paul (1980).
+    ComputedTorque(Option<ComputedTorqueGains>),
 }
 
 /// How a run starts.
@@ -225,6 +241,9 @@ impl ScenarioDocument {
             plant: PlantDocument::default(),
             trajectory: TrajectoryDocument::default(),
             scheme,
+            velocity: None,
+            adaptation: None,
+            effects: None,
             initial: InitialDocument::default(),
             integration: IntegrationDocument::default(),
             recording: RecordingDocument::default(),

@@ -183,3 +183,47 @@ gain_set! {
         ], "Adaptation gain of each parameter: how fast its estimate follows the gradient.";
     ]
 }
+
+/// Which parameters a model that does not adapt is computed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ModelParameters {
+    /// The robot's nominal ones: what its designer would know.
+    #[default]
+    Nominal,
+    /// Those of the simulated arm, without its payload: what nobody knows.
+    True,
+}
+
+gain_set! {
+    /// Gains of PD, the yardstick without a model. Chosen: K_s Λ and K_s of the paper's Slotine and Li, the linear part of it.
+    PdGains [
+        k_p "K_p" "N·m" Joint 0.0..=1e6 = vec![950.0, 747.5, 880.0],
+            "Torque per rad of tracking error.";
+        k_d "K_d" "N·m·s" Joint 0.0..=1e5 = vec![95.0, 115.0, 110.0],
+            "Torque per rad/s of velocity error.";
+    ]
+}
+
+gain_set! {
+    /// Gains of PD with gravity; chosen as for PD.
+    PdGravityGains { /// Which parameters gravity is computed with.
+        parameters: ModelParameters } [
+        k_p "K_p" "N·m" Joint 0.0..=1e6 = vec![950.0, 747.5, 880.0],
+            "Torque per rad of tracking error.";
+        k_d "K_d" "N·m·s" Joint 0.0..=1e5 = vec![95.0, 115.0, 110.0],
+            "Torque per rad/s of velocity error.";
+    ]
+}
+
+gain_set! {
+    /// Gains of computed torque. Chosen: the error decays as a critically damped oscillator of 10 rad/s.
+    ComputedTorqueGains { /// Which parameters the model is computed with.
+        parameters: ModelParameters } [
+        k_p "K_p" "1/s²" Joint 0.0..=1e6 = vec![100.0, 100.0, 100.0],
+            "Acceleration per rad of tracking error.";
+        k_d "K_d" "1/s" Joint 0.0..=1e5 = vec![20.0, 20.0, 20.0],
+            "Acceleration per rad/s of velocity error.";
+    ]
+}

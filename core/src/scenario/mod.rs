@@ -3,6 +3,7 @@
 //! `ScenarioDocument` is what people write; [`Scenario`] is what has been checked and cannot be wrong any more: after it
 //! the physics cannot fail except by diverging. Reads any serde format and knows no JSON text.
 
+mod beyond;
 mod build;
 mod document;
 mod error;
@@ -15,13 +16,20 @@ mod side_by_side;
 mod tree;
 mod validate;
 
+pub use beyond::{
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
+    StribeckDocument, VelocityDocument, VelocityKind,
+};
 pub use document::{
     FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument, IntegrationDocument,
     MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
     TrajectoryKind,
 };
 pub use error::{Problem, ScenarioError, in_plain_words};
-pub use gains::{GainInfo, GainSet, GainShape, ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
+pub use gains::{
+    ComputedTorqueGains, GainInfo, GainSet, GainShape, ModelParameters, PdGains, PdGravityGains, ProjectionBounds,
+    ProposedGains, SlotineLiGains, TangArteagaGains,
+};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
 pub use side_by_side::{SideBySide, run_each};
@@ -36,7 +44,7 @@ use serde::{Deserialize, Deserializer};
 use std::ops::ControlFlow;
 use tree::{Tree, TreeDeserializer};
 
-/// A control scheme of the study.
+/// A control scheme: the study's, and yardsticks to hold beside them (docs/schemes.md).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Scheme {
     /// The proposed scheme, without velocity sensor. Source: paper section 3.3.
@@ -45,11 +53,20 @@ pub enum Scheme {
     TangArteaga,
     /// Slotine and Li (1987). Source: paper section 3.1.
     SlotineLi,
+    /// PD, without a model.
+    Pd,
+    /// PD with gravity.
+    PdGravity,
+    /// Computed torque.
+    ComputedTorque,
 }
 
 impl Scheme {
-    /// Every scheme, in the order of the paper's tables.
+    /// The study's schemes, in the order of the paper's tables.
     pub const ALL: [Self; 3] = [Self::Proposed, Self::TangArteaga, Self::SlotineLi];
+
+    /// Schemes that do not adapt.
+    pub const YARDSTICKS: [Self; 3] = [Self::Pd, Self::PdGravity, Self::ComputedTorque];
 
     /// Identifier in scenarios.
     pub const fn id(self) -> &'static str {
@@ -57,6 +74,9 @@ impl Scheme {
             Self::Proposed => "proposed",
             Self::TangArteaga => "tang_arteaga",
             Self::SlotineLi => "slotine_li",
+            Self::Pd => "pd",
+            Self::PdGravity => "pd_gravity",
+            Self::ComputedTorque => "computed_torque",
         }
     }
 
@@ -66,6 +86,9 @@ impl Scheme {
             Self::Proposed => "Proposed",
             Self::TangArteaga => "Tang and Arteaga",
             Self::SlotineLi => "Slotine and Li",
+            Self::Pd => "PD",
+            Self::PdGravity => "PD with gravity",
+            Self::ComputedTorque => "Computed torque",
         }
     }
 
@@ -75,15 +98,21 @@ impl Scheme {
             Self::Proposed => ProposedGains::TABLE,
             Self::TangArteaga => TangArteagaGains::TABLE,
             Self::SlotineLi => SlotineLiGains::TABLE,
+            Self::Pd => PdGains::TABLE,
+            Self::PdGravity => PdGravityGains::TABLE,
+            Self::ComputedTorque => ComputedTorqueGains::TABLE,
         }
     }
 
-    /// The paper's scenario with the paper's gains.
+    /// The paper's scenario with the scheme's default gains: the paper's, where it is one of its own.
     pub fn paper(self) -> ScenarioDocument {
         ScenarioDocument::paper(match self {
             Self::Proposed => SchemeDocument::Proposed(None),
             Self::TangArteaga => SchemeDocument::TangArteaga(None),
             Self::SlotineLi => SchemeDocument::SlotineLi(None),
+            Self::Pd => SchemeDocument::Pd(None),
+            Self::PdGravity => SchemeDocument::PdGravity(None),
+            Self::ComputedTorque => SchemeDocument::ComputedTorque(None),
         })
     }
 }
@@ -199,7 +228,15 @@ impl Scenario {
             SchemeDocument::Proposed(_) => Scheme::Proposed,
             SchemeDocument::TangArteaga(_) => Scheme::TangArteaga,
             SchemeDocument::SlotineLi(_) => Scheme::SlotineLi,
+            SchemeDocument::Pd(_) => Scheme::Pd,
+            SchemeDocument::PdGravity(_) => Scheme::PdGravity,
+            SchemeDocument::ComputedTorque(_) => Scheme::ComputedTorque,
         }
+    }
+
+    /// Whether an observer supplies the velocity, so that z means its error.
+    pub fn has_observer(&self) -> bool {
+        matches!(beyond::velocity_kind(&self.document), VelocityKind::Observer | VelocityKind::HighGain)
     }
 
     /// Hash of the canonical form (its CBOR encoding): equal hashes mean equal scenarios, however they were written.
@@ -230,6 +267,9 @@ impl Scenario {
     /// The closed loop as a state space.
     pub fn closed_loop(&self) -> Box<dyn StateSpace<f64>> {
         // The one robot so far; validation lets no other name through.
+        if beyond::is_beyond(&self.document) {
+            return beyond::build::closed_loop::<CrsA465, 3, 18>(&self.document);
+        }
         build::closed_loop::<CrsA465, f64, 3, 18>(&[&self.document])
     }
 
@@ -266,7 +306,7 @@ impl Scenario {
         let settings = self.settings();
         let (outcome, at_s, reason) = report::describe(simulation.outcome());
         let recording = simulation.recording();
-        let observed = self.scheme() == Scheme::Proposed;
+        let observed = self.has_observer();
         let interval_s = settings.duration_s / settings.samples as f64;
         let report = Report {
             format: Report::FORMAT.to_owned(),

@@ -8,10 +8,10 @@ use crate::robots::{CrsA465, ROBOTS, Robot, RobotData};
 use schemars::{Schema, json_schema, transform::Transform};
 
 /// The only robot there is; with a second one, lengths will depend on which is named.
-const ROBOT: &RobotData = <CrsA465 as Robot<3, 18>>::DATA;
+pub(super) const ROBOT: &RobotData = <CrsA465 as Robot<3, 18>>::DATA;
 
 /// Adds keywords to the part of a schema at a JSON pointer.
-fn refine(schema: &mut Schema, pointer: &str, keywords: &Schema) {
+pub(super) fn refine(schema: &mut Schema, pointer: &str, keywords: &Schema) {
     let part = schema.pointer_mut(pointer).and_then(|part| part.as_object_mut());
     debug_assert!(part.is_some(), "no {pointer} in {schema:?}");
     if let (Some(part), Some(keywords)) = (part, keywords.as_object()) {
@@ -19,12 +19,12 @@ fn refine(schema: &mut Schema, pointer: &str, keywords: &Schema) {
     }
 }
 
-fn range([min, max]: [f64; 2]) -> Schema {
+pub(super) fn range([min, max]: [f64; 2]) -> Schema {
     json_schema!({ "minimum": min, "maximum": max })
 }
 
 /// A list with one number per joint or parameter.
-fn list(length: usize, limits: [f64; 2]) -> Schema {
+pub(super) fn list(length: usize, limits: [f64; 2]) -> Schema {
     let [minimum, maximum] = limits;
     json_schema!({
         "items": { "type": "number", "format": "double", "minimum": minimum, "maximum": maximum },
@@ -92,7 +92,7 @@ pub(super) fn trajectory(schema: &mut Schema) {
 
 /// Of the scheme: gains may be left out.
 pub(super) fn scheme(schema: &mut Schema) {
-    for n in 0..super::Scheme::ALL.len() {
+    for n in 0..super::Scheme::ALL.len() + super::Scheme::YARDSTICKS.len() {
         refine(schema, &format!("/oneOf/{n}"), &json_schema!({ "required": ["kind"] }));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Each gets the bits that it has alone; what cannot share lanes runs by itself.
 
-use super::{Run, Scenario, build};
+use super::{Run, Scenario, beyond, build};
 use crate::lanes::{self, WithLanes};
 use crate::robots::CrsA465;
 use crate::scalar::Scalar;
@@ -31,11 +31,14 @@ impl WithLanes for Start<'_, '_> {
 }
 
 impl Scenario {
-    /// Whether both can be lanes of one simulation: they take the same steps and samples, and differ in numbers only.
+    /// Whether both can be lanes of one simulation: they take the same steps and samples, differ in numbers only, and say
+    /// nothing beyond the paper.
     pub fn runs_beside(&self, other: &Self) -> bool {
         let (a, b) = (&self.document, &other.document);
         let (settings, others) = (self.settings(), other.settings());
-        self.robot.id == other.robot.id
+        !beyond::is_beyond(a)
+            && !beyond::is_beyond(b)
+            && self.robot.id == other.robot.id
             && self.scheme() == other.scheme()
             && settings == others
             && settings.steps_on_grid().is_some()
@@ -49,8 +52,9 @@ impl<'a> SideBySide<'a> {
     /// Starts scenarios in `width` lanes; `None` where the machine has no such lanes, there are more scenarios than lanes, or
     /// they cannot run beside each other.
     pub fn start(scenarios: &[&'a Scenario], width: usize) -> Option<Self> {
-        let (first, rest) = scenarios.split_first()?;
-        if scenarios.len() > width || !rest.iter().all(|scenario| first.runs_beside(scenario)) {
+        let first = scenarios.first()?;
+        // The first beside itself, too: alone in a lane it would still be built for lanes.
+        if scenarios.len() > width || !scenarios.iter().all(|scenario| first.runs_beside(scenario)) {
             return None;
         }
         let lockstep = lanes::with_lanes(width, Start(scenarios)).flatten()?;

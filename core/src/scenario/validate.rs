@@ -1,5 +1,6 @@
 //! What a scenario may say. Checks a document once and fills in everything it left out.
 
+use super::beyond;
 use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind};
 use super::error::{Problem, ScenarioError};
 use super::gains::{GainSet, GainShape};
@@ -52,7 +53,7 @@ pub const LIMITS: Limits = Limits {
 const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-10;
 const DEFAULT_ABSOLUTE_TOLERANCE: f64 = 1e-12;
 
-type Check = Result<(), ScenarioError>;
+pub(super) type Check = Result<(), ScenarioError>;
 
 /// Checks a document and fills in what it left out.
 pub(super) fn resolve(mut document: ScenarioDocument) -> Result<(ScenarioDocument, &'static RobotData), ScenarioError> {
@@ -67,6 +68,7 @@ pub(super) fn resolve(mut document: ScenarioDocument) -> Result<(ScenarioDocumen
     resolve_trajectory(&mut document.trajectory, robot)?;
     resolve_scheme(&mut document.scheme, robot)?;
     resolve_integration(&mut document)?;
+    beyond::resolve(&mut document, robot)?;
     let [fewest, most] = LIMITS.samples.map(|samples| samples as f64);
     range("/recording/samples", document.recording.samples as f64, [fewest, most], "")?;
     Ok((document, robot))
@@ -159,6 +161,9 @@ fn resolve_scheme(scheme: &mut SchemeDocument, robot: &RobotData) -> Check {
         }
         SchemeDocument::TangArteaga(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
         SchemeDocument::SlotineLi(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
+        SchemeDocument::Pd(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
+        SchemeDocument::PdGravity(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
+        SchemeDocument::ComputedTorque(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
     }
 }
 
@@ -217,11 +222,11 @@ fn unknown(pointer: &str, value: &str, allowed: &str) -> ScenarioError {
     ScenarioError::new(pointer, Problem::Unknown { value, allowed: allowed.to_owned() })
 }
 
-fn at_most(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
+pub(super) fn at_most(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
     if found <= most { Ok(()) } else { Err(ScenarioError::new(pointer, Problem::TooMany { found, most, what })) }
 }
 
-fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Check {
+pub(super) fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Check {
     if found == expected {
         Ok(())
     } else {
@@ -229,7 +234,7 @@ fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Ch
     }
 }
 
-fn range(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static str) -> Check {
+pub(super) fn range(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static str) -> Check {
     // Written so that NaN fails.
     if value >= min && value <= max {
         Ok(())

@@ -180,7 +180,7 @@ where
         }
         let velocity = SVector::<T, N>::from_column_slice(&motion[N..]);
         let (source, rest) = rest.split_at_mut(layout.theta_hat - layout.velocity_source);
-        self.velocity_source.initialize(&desired.position, source);
+        self.velocity_source.initialize(&desired.position, &desired, source);
         let estimate = self.velocity_source.estimate(&desired.position, &velocity, &desired, source);
         let (theta_hat, law) = rest.split_at_mut(P);
         theta_hat.fill(T::zero());

@@ -4,6 +4,8 @@
 //! A diverging run is an [`Outcome`], not an error.
 
 mod closed_loop;
+mod controller;
+mod imperfect_loop;
 mod lockstep;
 mod outcome;
 mod recorder;
@@ -11,6 +13,8 @@ mod run;
 mod snapshot;
 
 pub use closed_loop::{ClosedLoop, InitialVelocity};
+pub use controller::Controller;
+pub use imperfect_loop::ImperfectLoop;
 pub(crate) use lockstep::{Lanes, Lockstep};
 pub use outcome::{Divergence, Outcome, TRACKING_ERROR_LIMIT_RAD};
 pub use run::Simulation;
@@ -40,6 +44,12 @@ pub trait StateSpace<T: Scalar>: Send {
     fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]);
     /// The estimates within a state.
     fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T];
+    /// Whether [`Self::begin_step`] does anything; such a system is for fixed steps, one run at a time.
+    fn has_events(&self) -> bool {
+        false
+    }
+    /// What changes in one instant, at the start of fixed step `step`: samples of a controller's clock, loads that come and go.
+    fn begin_step(&self, _step: u64, _time_s: f64, _x: &mut [T]) {}
 }
 
 /// How to integrate.

@@ -220,6 +220,7 @@ impl Simulation {
         if self.step >= self.settings.most_steps() {
             return Err(Divergence::TooManySteps(self.step));
         }
+        self.begin_step()?;
         let is_sampled = self.sample_on_grid()?;
         let start_s = self.time_s;
         self.before.copy_from_slice(&self.state);
@@ -228,6 +229,20 @@ impl Simulation {
         check(&*self.system, self.time_s, &self.state, &mut self.error)
             .and_then(|()| self.sample(start_s, self.time_s))
             .inspect_err(|_| self.state.copy_from_slice(&self.before))
+    }
+
+    /// Lets happen what happens in one instant; what would leave numbers that are not finite leaves no trace.
+    fn begin_step(&mut self) -> Result<(), Divergence> {
+        if !self.system.has_events() {
+            return Ok(());
+        }
+        self.before.copy_from_slice(&self.state);
+        self.system.begin_step(self.step, self.time_s, &mut self.state);
+        if are_finite(&self.state) {
+            return Ok(());
+        }
+        self.state.copy_from_slice(&self.before);
+        Err(Divergence::NotFinite)
     }
 
     /// Takes the sample that falls on the start of this step, if one does; its evaluation is the step's first slope too.

@@ -22,7 +22,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for Measured<T, N> {
         0
     }
 
-    fn initialize(&self, _position: &SVector<T, N>, _states: &mut [T]) {}
+    fn initialize(&self, _position: &SVector<T, N>, _desired: &Desired<T, N>, _states: &mut [T]) {}
 
     #[inline(always)]
     fn estimate(

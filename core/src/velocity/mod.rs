@@ -2,9 +2,15 @@
 //!
 //! The first of the three choices that make a scheme. A source may have states of its own, which the simulation integrates.
 
+mod any;
+mod filtered_difference;
+mod high_gain;
 mod measured;
 mod observer;
 
+pub use any::AnySource;
+pub use filtered_difference::FilteredDifference;
+pub use high_gain::HighGainObserver;
 pub use measured::Measured;
 pub use observer::ModelFreeObserver;
 
@@ -29,8 +35,8 @@ pub trait VelocitySource<T: Scalar, const N: usize>: Send {
     /// Number of states to integrate.
     fn states(&self) -> usize;
 
-    /// Writes the initial states for a start at `position`.
-    fn initialize(&self, position: &SVector<T, N>, states: &mut [T]);
+    /// Writes the initial states for a start at `position`; `desired` is the motion wanted then.
+    fn initialize(&self, position: &SVector<T, N>, desired: &Desired<T, N>, states: &mut [T]);
 
     /// v* at this instant. `velocity` is the true joint velocity, for sources that measure it.
     fn estimate(
@@ -43,4 +49,29 @@ pub trait VelocitySource<T: Scalar, const N: usize>: Send {
 
     /// Writes the states' derivative.
     fn derivative(&self, estimate: &VelocityEstimate<T, N>, derivative: &mut [T]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrators::Rk4;
+
+    /// Worst difference between a source's velocity for `q = sin Ω t` and `expected`, once its start is forgotten.
+    pub(super) fn response(source: &impl VelocitySource<f64, 1>, frequency: f64, expected: impl Fn(f64) -> f64) -> f64 {
+        let at = |t: f64| SVector::from([(frequency * t).sin()]);
+        let still = Desired { position: SVector::zeros(), velocity: SVector::zeros(), acceleration: SVector::zeros() };
+        let estimate = |t: f64, x: &[f64]| source.estimate(&at(t), &SVector::zeros(), &still, x);
+        let mut x = vec![0.0; source.states()];
+        source.initialize(&at(0.0), &still, &mut x);
+        let mut rk4 = Rk4::new(x.len());
+        let (h, mut worst) = (1e-4, 0.0_f64);
+        for n in 0..30_000 {
+            let (start, end) = (f64::from(n) * h, f64::from(n + 1) * h);
+            rk4.step(start, end, &mut x, |t, x, rate| source.derivative(&estimate(t, x), rate));
+            if n > 20_000 {
+                worst = worst.max((estimate(end, &x).velocity[0] - expected(end)).abs());
+            }
+        }
+        worst
+    }
 }

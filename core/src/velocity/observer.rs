@@ -27,7 +27,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for ModelFreeObserver<T, N>
     }
 
     /// q̂(0) = q(0), ξ(0) = 0 (chosen; docs/physics.md section 2).
-    fn initialize(&self, position: &SVector<T, N>, states: &mut [T]) {
+    fn initialize(&self, position: &SVector<T, N>, _desired: &Desired<T, N>, states: &mut [T]) {
         states[..N].copy_from_slice(position.as_slice());
         states[N..].fill(T::zero());
     }

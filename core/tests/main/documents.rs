@@ -197,7 +197,7 @@ proptest! {
             Scheme::TangArteaga => S::TangArteaga(Some(adaptarm_core::scenario::TangArteagaGains {
                 gamma_adapt: vec![gain; 18], k_s: vec![gain; 3], ..Default::default()
             })),
-            Scheme::SlotineLi => S::SlotineLi(Some(adaptarm_core::scenario::SlotineLiGains {
+            _ => S::SlotineLi(Some(adaptarm_core::scenario::SlotineLiGains {
                 gamma_adapt: vec![gain; 18], k_s: vec![gain; 3], ..Default::default()
             })),
         };

@@ -1,8 +1,10 @@
 //! The core's tests from outside: reference data, the laws of mechanics, resumption, bad documents. One binary.
 
+mod beyond;
 mod convergence;
 mod documents;
 mod dual;
+mod imperfections;
 mod lanes;
 mod laws;
 mod reference;

@@ -105,7 +105,7 @@ impl FigureRequest {
     pub fn new(name: &str, report: &Report) -> Result<Self, NoFigure> {
         let unknown = |what, name: &str| NoFigure::UnknownRun { what, name: brief(name) };
         let robot = robot(&report.robot).ok_or_else(|| unknown("robot", &report.robot))?;
-        let scheme = Scheme::ALL.into_iter().find(|scheme| scheme.id() == report.scheme);
+        let scheme = Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS).find(|scheme| scheme.id() == report.scheme);
         let scheme = scheme.ok_or_else(|| unknown("scheme", &report.scheme))?;
         let files = Figure::ALL.into_iter().flat_map(|figure| PictureFormat::ALL.map(|format| (figure, format)));
         let mut files = files.filter(|(figure, format)| figure.shows(scheme) && file_name(*figure, *format) == name);

@@ -24,6 +24,7 @@ pub fn step_cost_us(scheme: Scheme) -> f64 {
         Scheme::Proposed => 1.75,
         Scheme::TangArteaga => 1.55,
         Scheme::SlotineLi => 0.65,
+        Scheme::Pd | Scheme::PdGravity | Scheme::ComputedTorque => 0.5,
     }
 }
 

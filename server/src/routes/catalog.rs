@@ -70,7 +70,8 @@ pub(super) async fn robots() -> Json<Vec<RobotView>> {
     responses((status = 200, description = "All schemes.", body = [SchemeView])),
 )]
 pub(super) async fn schemes() -> Result<Json<Vec<SchemeView>>, Problem> {
-    Scheme::ALL.into_iter().map(SchemeView::new).collect::<Result<_, _>>().map(Json).map_err(internal)
+    let schemes = Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS);
+    schemes.map(SchemeView::new).collect::<Result<_, _>>().map(Json).map_err(internal)
 }
 
 /// The JSON Schema of a scenario.

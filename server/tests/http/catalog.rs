@@ -33,7 +33,7 @@ async fn every_gain_has_a_range_that_holds_its_default() {
             count += 1;
         }
     }
-    assert_eq!(count, 11 + 3 + 7 + 3);
+    assert_eq!(count, 11 + 3 + 7 + 3 + 3 * 2);
 }
 
 #[tokio::test]

@@ -30,5 +30,8 @@ fn of(runs: &[Run; 3], scheme: Scheme) -> &Run {
         Scheme::Proposed => &runs[0],
         Scheme::TangArteaga => &runs[1],
         Scheme::SlotineLi => &runs[2],
+        Scheme::Pd | Scheme::PdGravity | Scheme::ComputedTorque => {
+            unreachable!("claims are about the study's schemes: {}", scheme.id())
+        }
     }
 }

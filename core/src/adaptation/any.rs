@@ -1,0 +1,59 @@
+//! Any adaptation law, chosen when the program runs; also none, for yardsticks whose θ̂ is given.
+
+use super::{AdaptationInput, AdaptationLaw, CompositeAdaptation, GradientAdaptation, LeastSquaresAdaptation};
+use crate::robots::Robot;
+use crate::scalar::Scalar;
+use nalgebra::SVector;
+
+/// One of the adaptation laws.
+#[derive(Debug, Clone, Copy)]
+pub enum AnyAdaptation<R, T, const N: usize, const P: usize> {
+    /// `θ̂' = 0`.
+    None,
+    /// Slotine and Li's.
+    Gradient(GradientAdaptation<T, P>),
+    /// Tang and Arteaga's, the proposed one.
+    Composite(CompositeAdaptation<R, T, N, P>),
+    /// Least squares with bounded-gain forgetting.
+    LeastSquares(LeastSquaresAdaptation<R, T, N, P>),
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R, T, N, P>
+    for AnyAdaptation<R, T, N, P>
+{
+    const FILTERS: bool = true;
+
+    fn states(&self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Gradient(law) => AdaptationLaw::<R, T, N, P>::states(law),
+            Self::Composite(law) => law.states(),
+            Self::LeastSquares(law) => law.states(),
+        }
+    }
+
+    fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
+        match self {
+            Self::None => {}
+            Self::Gradient(law) => AdaptationLaw::<R, T, N, P>::initialize(law, geometry, velocity, states),
+            Self::Composite(law) => law.initialize(geometry, velocity, states),
+            Self::LeastSquares(law) => law.initialize(geometry, velocity, states),
+        }
+    }
+
+    #[inline(always)]
+    fn derivative(
+        &self,
+        input: &AdaptationInput<'_, R, T, N, P>,
+        states: &[T],
+        theta_hat_rate: &mut [T],
+        states_rate: &mut [T],
+    ) {
+        match self {
+            Self::None => theta_hat_rate.fill(T::zero()),
+            Self::Gradient(law) => law.derivative(input, states, theta_hat_rate, states_rate),
+            Self::Composite(law) => law.derivative(input, states, theta_hat_rate, states_rate),
+            Self::LeastSquares(law) => law.derivative(input, states, theta_hat_rate, states_rate),
+        }
+    }
+}
