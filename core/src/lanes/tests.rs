@@ -1,6 +1,6 @@
 //! Each lane does what a number alone does, to the bit.
 
-use super::{WithLanes, with_lanes, widths};
+use super::{WithLanes, widths, with_lanes};
 use crate::scalar::{Kernel, Scalar};
 use proptest::prelude::*;
 

@@ -114,9 +114,7 @@ fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
         coriolis_velocity: CoriolisVelocity::Reference,
     };
     let nominal = |factor: fn(&ProjectionBounds) -> f64| {
-        SVector::<T, P>::from_fn(|k, _| {
-            gains.scalar(|gains| factor(&gains.projection) * R::DATA.parameters[k].value)
-        })
+        SVector::<T, P>::from_fn(|k, _| gains.scalar(|gains| factor(&gains.projection) * R::DATA.parameters[k].value))
     };
     let projection = Projection {
         strength: gains.scalar(|gains| gains.rho),

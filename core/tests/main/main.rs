@@ -3,6 +3,7 @@
 mod convergence;
 mod documents;
 mod dual;
+mod experiments;
 mod lanes;
 mod laws;
 mod reference;
