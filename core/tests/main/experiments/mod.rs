@@ -1,9 +1,10 @@
 //! Experiments: every run from its number alone, the same summary however rows come, the same tuning however often it is
 //! stopped.
 
-use adaptarm_core::experiments::{
-    Experiment, ExperimentDocument, PlannedRun, Results, Row, RowOutcome, Summary, Tuning,
-};
+mod mistakes;
+mod tuning;
+
+use adaptarm_core::experiments::{Experiment, ExperimentDocument, PlannedRun, Results, Row, RowOutcome, Summary};
 use adaptarm_core::scenario::{Scenario, read_document};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -265,145 +266,6 @@ fn a_draw_that_makes_no_arm_is_refused_and_counted() {
     let group = &summary.groups[0];
     assert!(group.refused > 0 && group.completed > 0 && group.refused + group.completed == 10, "{group:?}");
     assert!(summary.first_refusal.unwrap().why.starts_with("plant.theta_scale"));
-}
-
-fn tuning_section() -> Value {
-    json!({
-        "variables": [
-            { "field": "/scheme/gains/k_v/*", "min": 0.1, "max": 10, "log": true, "relative": true },
-            { "field": "/scheme/gains/beta", "min": 0.1, "max": 50, "log": true },
-        ],
-        "objective": [{ "metric": "index_e_deg", "weight": 1 }, { "metric": "tau_peak_nm", "weight": 0.1, "scale": 50 }],
-        "constraints": [{ "metric": "tau_peak_nm_2", "max": 400 }],
-        "plants": { "count": 2, "fields": parameters(), "validation": 3 },
-        "population": 4,
-        "evaluations": 24,
-        "restarts": 1,
-    })
-}
-
-fn step(experiment: &Experiment, tuning: &mut Tuning, reversed: bool) {
-    let mut rows = rows(experiment, tuning.plan(experiment));
-    if reversed {
-        rows.reverse();
-    }
-    tuning.tell(experiment, rows).unwrap();
-}
-
-#[test]
-fn a_tuning_goes_the_same_way_however_often_it_is_stopped() {
-    let experiment = experiment("tuning", &["proposed"], &tuning_section()).unwrap();
-    let mut straight = experiment.tuning().unwrap();
-    while !straight.is_done() {
-        step(&experiment, &mut straight, false);
-    }
-    let mut stopped = experiment.tuning().unwrap();
-    while !stopped.is_done() {
-        let mut bytes = Vec::new();
-        ciborium::into_writer(&stopped, &mut bytes).unwrap();
-        stopped = ciborium::from_reader(bytes.as_slice()).unwrap();
-        assert!(stopped.belongs_to(&experiment));
-        step(&experiment, &mut stopped, true);
-    }
-    assert_eq!(stopped, straight);
-    let summary = straight.summary(&experiment);
-    assert!(summary.finished && summary.history.len() == 6 && summary.candidates == 25 && summary.runs == 56);
-    assert_eq!(summary.scales[1], 50.0);
-    let (start, best) = (summary.start.unwrap(), summary.best.unwrap());
-    assert!(best.objective < start.objective, "{best:?} is no better than {start:?}");
-    let validation = summary.validation.unwrap();
-    assert!(validation.best < validation.start, "{validation:?}");
-    assert!(straight.best_scenario(&experiment).is_some());
-    assert!(straight.plan(&experiment).is_empty() && straight.tell(&experiment, Vec::new()).is_err());
-}
-
-#[test]
-fn a_tuning_takes_only_the_rows_that_it_asked_for() {
-    let experiment = experiment("tuning", &["proposed"], &tuning_section()).unwrap();
-    let mut tuning = experiment.tuning().unwrap();
-    let mut rows = rows(&experiment, tuning.plan(&experiment));
-    rows[1].index = 0;
-    assert!(tuning.tell(&experiment, rows.clone()).unwrap_err().to_string().contains("of the 2 runs that come next"));
-    for (n, row) in rows.iter_mut().enumerate() {
-        *row = Row {
-            index: n as u64,
-            outcome: RowOutcome::Diverged,
-            metrics: vec![None; row.metrics.len()],
-            ..row.clone()
-        };
-    }
-    let error = tuning.tell(&experiment, rows).unwrap_err().to_string();
-    assert!(
-        error.contains("lacks index_e_deg on every plant") && error.contains("tuning.objective[0].scale"),
-        "{error}"
-    );
-    assert!(!tuning.belongs_to(&monte_carlo(2)));
-}
-
-#[test]
-fn mistakes_name_field_value_and_range() {
-    let error = |kind: &str, section: Value| experiment(kind, &["proposed"], &section).unwrap_err();
-    let draws = |draws: Value| error("monte_carlo", json!({ "draws": draws }));
-    assert_eq!(draws(json!(0)), "monte_carlo.draws: 0 is outside the allowed range 1 to 200000 draws");
-    assert!(draws(json!(-1)).starts_with("monte_carlo.draws: invalid value: integer `-1`"));
-    let field = |field: &str| {
-        let distribution = json!({ "kind": "uniform", "min": 0, "max": 1 });
-        error("monte_carlo", json!({ "draws": 1, "fields": [{ "field": field, "distribution": distribution }] }))
-    };
-    assert!(
-        field("/scheme/gains/k_s/0").starts_with("monte_carlo.fields[0].field: \"/scheme/gains/k_s/0\" is not known")
-    );
-    assert!(field("/robot").contains("a JSON pointer to a number"));
-    let axis = |axis: Value| error("sweep", json!({ "design": "grid", "axes": [axis] }));
-    let beta = "/scheme/gains/beta";
-    assert!(axis(json!({ "field": beta, "min": 1, "max": 2 })).starts_with("sweep.axes[0].points: missing"));
-    assert!(
-        axis(json!({ "field": beta, "min": 2, "max": 1, "points": 3 })).starts_with("sweep.axes[0].max: must be above")
-    );
-    assert!(axis(json!({ "field": beta, "values": [] })).contains("is empty"));
-    let six = json!({ "field": "/plant/theta_scale/0", "min": 1, "max": 2, "points": 1000 });
-    let mut second = six.clone();
-    second["field"] = json!("/plant/theta_scale/1");
-    let many = error("sweep", json!({ "design": "grid", "axes": [six, second] }));
-    assert!(many.starts_with("sweep: asks for 200001 runs in all; at most 200000"), "{many}");
-    let twice = json!([{ "field": beta, "values": [1] }, { "field": beta, "values": [2] }]);
-    assert!(error("sweep", json!({ "design": "grid", "axes": twice })).contains("varies twice"));
-    let impossible = json!({ "conditions": [{ "name": "x", "set": [{ "field": beta, "value": -1 }] }] });
-    let said = error("compare", impossible);
-    assert!(
-        said.starts_with("compare.conditions[0].set: with base \"proposed\": scheme.gains.beta: -1 is outside"),
-        "{said}"
-    );
-    let mut section = tuning_section();
-    section["variables"][1]["min"] = json!(6);
-    assert!(
-        error("tuning", section).starts_with("tuning.variables[1].field: 5.5 is outside the allowed range 6 to 50")
-    );
-    let mut section = tuning_section();
-    section["objective"][0]["metric"] = json!("beauty");
-    assert!(error("tuning", section).contains("\"beauty\" is not known; allowed: index_e_deg, index_e_deg_1"));
-    let other = error("sweep", json!({ "design": "sobol", "axes": [{ "field": beta, "min": 1, "max": 2 }] }));
-    assert!(other.starts_with("sweep.points: missing"), "{other}");
-}
-
-#[test]
-fn the_sections_and_the_limits_of_all_steps_are_checked() {
-    let read = |document: &Value| Experiment::read(document).map_err(|error| error.to_string());
-    let base = json!([{ "name": "a", "scenario": scenario("proposed") }]);
-    let mut document = json!({ "format": "adaptarm.experiment/1", "kind": "sweep", "bases": base });
-    assert_eq!(read(&document).unwrap_err(), "sweep: missing; kind sweep needs this section");
-    document["monte_carlo"] = json!({ "draws": 100_000 });
-    assert_eq!(read(&document).unwrap_err(), "sweep: missing; kind sweep needs this section");
-    document["kind"] = json!("monte_carlo");
-    assert!(read(&document).is_ok());
-    document["bases"][0]["scenario"]["integration"] = json!({ "duration_s": 90_000 });
-    assert!(read(&document).unwrap_err().contains("are more than the 1e12 steps"));
-    document["bases"][0]["scenario"]["integration"] = json!({ "step_s": 7 });
-    assert!(read(&document).unwrap_err().starts_with("bases[0].scenario.integration.step_s: 7 is outside"));
-    document["bases"] = json!([]);
-    assert!(read(&document).unwrap_err().starts_with("bases: is empty"));
-    document["format"] = json!("adaptarm.experiment/9");
-    assert!(read(&document).unwrap_err().starts_with("format: \"adaptarm.experiment/9\" is not known"));
 }
 
 #[test]
