@@ -92,9 +92,24 @@ pub(crate) fn power(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
-/// Natural logarithm, for random numbers; libm on every target.
-pub(crate) fn log(x: f64) -> f64 {
+/// `eˣ`; libm on every target, as all of these.
+pub(crate) fn exponential(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// Natural logarithm.
+pub(crate) fn logarithm(x: f64) -> f64 {
     libm::log(x)
+}
+
+/// `1 − erf(x)`, exact in the tail too.
+pub(crate) fn complementary_error(x: f64) -> f64 {
+    libm::erfc(x)
+}
+
+/// `ln Γ(x)`.
+pub(crate) fn log_gamma(x: f64) -> f64 {
+    libm::lgamma(x)
 }
 
 /// Inverse hyperbolic sine, for axes that are linear about zero and logarithmic far from it; libm on every target.

@@ -15,6 +15,7 @@ pub mod document;
 pub mod download;
 pub mod error;
 pub mod events;
+pub mod experiment;
 pub mod figures;
 pub mod guard;
 pub mod jobs;

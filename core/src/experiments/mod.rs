@@ -1,3 +1,43 @@
 //! Experiments: questions put to several runs at once.
+//!
+//! `document` is what people write, `resolve` checks it into an [`Experiment`], whose runs can be planned and made anywhere
+//! (`layout`, `fields`); [`Results`] folds their rows in any order and [`Summary`] says what they say. A [`Tuning`] asks for
+//! its runs step by step. Nothing here knows threads or files.
 
+mod cmaes;
+mod distribution;
+mod document;
+mod eigen;
+mod experiment;
+mod fields;
+mod latin;
+mod layout;
+mod limits;
+mod normal;
+mod objective;
+mod paired;
 pub mod replication;
+mod resolve;
+mod results;
+mod row;
+mod sobol;
+mod statistics;
+mod stream;
+mod summary;
+mod tuning;
+
+pub use distribution::{DistributionDocument, DistributionKind};
+pub use document::{
+    Aggregate, AxisDocument, BaseDocument, CompareDocument, ConditionDocument, ConstraintDocument, EXPERIMENT_FORMAT,
+    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, PlantsDocument, RandomFieldDocument,
+    SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
+};
+pub use experiment::{Experiment, PlannedRun};
+pub use layout::Place;
+pub use limits::{EXPERIMENT_LIMITS, ExperimentLimits};
+pub use paired::{PairSummary, Ranked, Ranking};
+pub use results::{FoldError, Results};
+pub use row::{ResultColumns, Row, RowOutcome};
+pub use statistics::{Share, Statistics};
+pub use summary::{GroupSummary, MetricSummary, Refusal, Sensitivity, Summary};
+pub use tuning::{Candidate, Generation, Tuning, TuningError, TuningSummary, Validation};

@@ -4,6 +4,7 @@ mod beyond;
 mod convergence;
 mod documents;
 mod dual;
+mod experiments;
 mod imperfections;
 mod lanes;
 mod laws;

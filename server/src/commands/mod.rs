@@ -1,6 +1,7 @@
 //! The command line: what can be asked, and what the exit code says about the answer.
 
 mod config;
+mod experiment;
 mod gc;
 mod openapi;
 mod options;
@@ -30,6 +31,7 @@ Examples:
   adaptarm presets --show proposed > my.json    a scenario to start from
   adaptarm run my.json --csv my.csv         its report, and its samples as a table
   adaptarm replicate                        the published study, regenerated
+  adaptarm experiment tuning.json --out tuning    sweeps, Monte Carlo, comparisons, tuning
   adaptarm serve                            the laboratory at http://127.0.0.1:8080";
 
 /// Adaptive control of robot arms: simulate, compare, explore.
@@ -48,6 +50,8 @@ enum Command {
     Presets(presets::Arguments),
     /// Regenerate the published study: tables, claims, figures and a report in a folder.
     Replicate(ReplicateArgs),
+    /// Make the runs of an experiment: a sweep, a Monte Carlo study, a comparison of schemes, or a tuning.
+    Experiment(experiment::Arguments),
     /// Serve the laboratory's page and its HTTP API.
     Serve(serve::Arguments),
     /// Compute for servers that share a PostgreSQL database.
@@ -72,6 +76,7 @@ pub fn main() -> ExitCode {
             let message = format!("{error:#}");
             if error.is::<BadSettings>() { Failure::input(message) } else { Failure::system(message) }
         }),
+        Command::Experiment(arguments) => experiment::run(&arguments),
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Worker(arguments) => worker::run(&arguments),
         Command::Gc(arguments) => gc::run(&arguments),

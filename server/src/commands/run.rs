@@ -74,6 +74,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn read(path: &Path) -> Result<Scenario, Failure> {
+    let (name, bytes) = read_input(path)?;
+    parse_scenario(&bytes).map_err(|error| Failure::input(format!("{name}: {error}")))
+}
+
+/// A document's name and bytes, from a file or, called -, from standard input.
+pub(super) fn read_input(path: &Path) -> Result<(String, Vec<u8>), Failure> {
     let (name, bytes) = if path.as_os_str() == "-" {
         ("standard input".to_owned(), read_bounded(io::stdin().lock()))
     } else {
@@ -83,7 +89,7 @@ fn read(path: &Path) -> Result<Scenario, Failure> {
         FileError::Unreadable(_) => Failure::system(format!("{name}: {error}")),
         FileError::Folder | FileError::TooLarge(_) | FileError::Endless => Failure::input(format!("{name}: {error}")),
     })?;
-    parse_scenario(&bytes).map_err(|error| Failure::input(format!("{name}: {error}")))
+    Ok((name, bytes))
 }
 
 /// Simulates, and shows how far it came to whoever is watching.

@@ -15,7 +15,7 @@ fn adaptarm(arguments: &[&str], folder: &Path) -> Result<Output> {
 }
 
 /// The one line that a refused command prints, after checking that it is one and that nothing else was printed.
-fn refusal(output: &Output, code: i32) -> Result<String> {
+pub(crate) fn refusal(output: &Output, code: i32) -> Result<String> {
     let line = String::from_utf8(output.stderr.clone())?;
     ensure!(output.status.code() == Some(code), "{:?} instead of {code}: {line}", output.status.code());
     ensure!(output.stdout.is_empty(), "printed {} bytes", output.stdout.len());

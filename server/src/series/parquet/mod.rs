@@ -23,6 +23,15 @@ pub fn from_table(table: &Table, trajectory_hash: &str) -> Result<Vec<u8>> {
     write(table.names(), columns, &[("adaptarm.trajectory_hash", trajectory_hash)], &[])
 }
 
+/// Columns of one length as a Parquet file.
+pub fn from_columns(
+    names: &[String],
+    columns: impl Iterator<Item = Vec<f64>>,
+    metadata: &[(&str, &str)],
+) -> Result<Vec<u8>> {
+    write(names, columns, metadata, &[])
+}
+
 /// A file of these columns, all of one length. `lead` stands before the first of them; readers of Parquet skip it.
 fn write(
     names: &[String],
