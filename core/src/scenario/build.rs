@@ -3,7 +3,7 @@
 use super::document::{
     InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
 };
-use super::gains::{ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
+use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
 use crate::adaptation::{
     AdaptationLaw, CompositeAdaptation, CompositeLaw, FilteredRegressor, GradientAdaptation, PredictionMemory,
     Projection,
@@ -13,7 +13,7 @@ use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
 use crate::recording::{Columns, Recording};
-use crate::robots::{CrsA465, Robot, RobotData};
+use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
 use crate::trajectories::{Fourier, Remembered};
@@ -113,18 +113,12 @@ fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
         lambda: gains.vector(|gains| &gains.lambda),
         coriolis_velocity: CoriolisVelocity::Reference,
     };
-    let nominal = |factor: fn(&ProjectionBounds) -> f64| {
-        SVector::<T, P>::from_fn(|k, _| {
-            gains.scalar(|gains| factor(&gains.projection) * R::DATA.parameters[k].value)
-        })
-    };
-    let projection = Projection {
-        strength: gains.scalar(|gains| gains.rho),
-        lower: SVector::zeros(),
-        lower_margin: SVector::from_element(gains.scalar(|gains| gains.projection.lower_margin)),
-        upper: nominal(|bounds| bounds.upper_factor),
-        upper_margin: nominal(|bounds| bounds.upper_hard_factor - bounds.upper_factor),
-    };
+    let projection = Projection::around(
+        |k| R::DATA.parameters[k].value,
+        gains.scalar(|gains| gains.rho),
+        gains.scalar(|gains| gains.projection.lower_margin),
+        [gains.scalar(|gains| gains.projection.upper_factor), gains.scalar(|gains| gains.projection.upper_hard_factor)],
+    );
     let adaptation = CompositeAdaptation::<R, T, N, P> {
         filter: FilteredRegressor::new(gains.scalar(|gains| gains.filter_rad_s)),
         memory: PredictionMemory::new(gains.scalar(|gains| gains.gamma), gains.scalar(|gains| gains.forgetting)),
@@ -187,16 +181,24 @@ pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> 
 
 /// A recording's torques, split by the arm that the document describes.
 pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recording: &Recording) -> TorqueParts {
-    // The one robot so far, as in `Scenario::closed_loop`.
-    let theta = SVector::from_column_slice(&theta(document, robot));
-    let plant = Plant::<CrsA465, f64, 3, 18>::new(theta, friction_sign(&[document]));
-    TorqueParts::of(&plant, &trajectory(&[document]), recording)
+    let theta = theta(document, robot);
+    for_robot!(robot, R, N, P => {
+        let plant = Plant::<R, f64, N, P>::new(SVector::from_column_slice(&theta), friction_sign(&[document]));
+        TorqueParts::of(&plant, &trajectory(&[document]), recording)
+    })
 }
 
 /// Whether an arm with these parameters can exist.
-pub(super) fn has_positive_inertia(theta: &[f64]) -> bool {
-    // The one robot so far, as in `Scenario::closed_loop`.
-    dynamics::has_positive_inertia::<CrsA465, 3, 18>(&SVector::from_column_slice(theta))
+pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64]) -> bool {
+    for_robot!(robot, R, N, P => dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta)))
+}
+
+/// Whether a robot can follow both trajectories in the lanes of one simulation.
+pub(super) fn trajectories_run_beside(robot: &RobotData, a: &TrajectoryDocument, b: &TrajectoryDocument) -> bool {
+    for_robot!(robot, R, N, P => {
+        let [a, b]: [Fourier<f64, N>; 2] = [fourier(a), fourier(b)];
+        a.runs_beside(&b)
+    })
 }
 
 fn trajectory<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Fourier<T, N> {
@@ -213,7 +215,8 @@ pub(super) fn fourier<const N: usize>(document: &TrajectoryDocument) -> Fourier<
             &[vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]],
             &[],
         ),
-        TrajectoryKind::Fourier => Fourier::from_degrees(
+        // Validation leaves no other kind.
+        TrajectoryKind::Fourier | TrajectoryKind::Default => Fourier::from_degrees(
             document.frequency_rad_s.unwrap_or(1.0),
             document.offset_deg.as_deref().unwrap_or_default(),
             document.sine_deg.as_deref().unwrap_or_default(),

@@ -23,8 +23,8 @@ pub struct ScenarioDocument {
     /// How the simulated arm differs from the nominal one.
     #[serde(default)]
     pub plant: PlantDocument,
-    /// Where the arm should go.
-    #[serde(default)]
+    /// Where the arm should go; the robot's own trajectory when left out.
+    #[serde(default = "TrajectoryDocument::of_robot")]
     pub trajectory: TrajectoryDocument,
     /// Which controller.
     pub scheme: SchemeDocument,
@@ -42,7 +42,7 @@ pub struct ScenarioDocument {
     pub seed: u64,
 }
 
-fn default_robot() -> String {
+pub(super) fn default_robot() -> String {
     "crs_a465".to_owned()
 }
 
@@ -114,14 +114,23 @@ pub struct TrajectoryDocument {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum TrajectoryKind {
-    /// Paper eq. (24).
+    /// Paper eq. (24); for the A465 only.
     #[default]
     Paper,
     /// A finite Fourier series per joint.
     Fourier,
+    /// The robot's own: `paper` for the A465, a `fourier` for each other. The canonical form says which.
+    Default,
 }
 
-/// A control scheme with its gains; gains left out are the paper's.
+impl TrajectoryDocument {
+    /// The robot's own, whichever robot it is.
+    pub fn of_robot() -> Self {
+        Self { kind: TrajectoryKind::Default, ..Self::default() }
+    }
+}
+
+/// A control scheme with its gains; gains left out are the robot's own: the paper's for the A465.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = super::schema::scheme))]
@@ -217,6 +226,12 @@ impl Default for RecordingDocument {
 }
 
 impl ScenarioDocument {
+    /// A robot under a scheme, along the robot's own trajectory.
+    pub fn of_robot(robot: &str, scheme: SchemeDocument) -> Self {
+        let trajectory = TrajectoryDocument::of_robot();
+        Self { robot: robot.to_owned(), trajectory, ..Self::paper(scheme) }
+    }
+
     /// The paper's scenario for a scheme with its own gains.
     pub fn paper(scheme: SchemeDocument) -> Self {
         Self {

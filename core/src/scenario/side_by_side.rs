@@ -4,7 +4,7 @@
 
 use super::{Run, Scenario, build};
 use crate::lanes::{self, WithLanes};
-use crate::robots::CrsA465;
+use crate::robots::for_robot;
 use crate::scalar::Scalar;
 use crate::simulation::{Lanes, Lockstep};
 use std::ops::ControlFlow;
@@ -24,8 +24,8 @@ impl WithLanes for Start<'_, '_> {
     fn with<T: Scalar>(self) -> Self::Output {
         let documents: Vec<_> = self.0.iter().map(|scenario| &scenario.document).collect();
         let identities = self.0.iter().map(|scenario| scenario.hash()).collect();
-        // The one robot so far; validation lets no other name through.
-        let system = build::closed_loop::<CrsA465, T, 3, 18>(&documents);
+        let robot = self.0[0].robot;
+        let system = for_robot!(robot, R, N, P => build::closed_loop::<R, T, N, P>(&documents));
         Some(Box::new(Lanes::new(identities, system, self.0[0].settings())?))
     }
 }
@@ -41,7 +41,7 @@ impl Scenario {
             && settings.steps_on_grid().is_some()
             && a.initial.velocity == b.initial.velocity
             && build::is_true_sign(a) == build::is_true_sign(b)
-            && build::fourier::<3>(&a.trajectory).runs_beside(&build::fourier(&b.trajectory))
+            && build::trajectories_run_beside(self.robot, &a.trajectory, &b.trajectory)
     }
 }
 

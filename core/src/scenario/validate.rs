@@ -3,7 +3,8 @@
 use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind};
 use super::error::{Problem, ScenarioError};
 use super::gains::{GainSet, GainShape};
-use crate::robots::{ROBOTS, RobotData, robot};
+use super::robot_defaults::{self, RobotGains};
+use crate::robots::{ROBOTS, RobotData, RobotKind, robot};
 
 /// Limits on what a scenario can ask for. All are inclusive.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -94,23 +95,39 @@ fn resolve_plant(document: &mut ScenarioDocument, robot: &RobotData) -> Check {
 
 fn resolve_trajectory(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
     match trajectory.kind {
-        TrajectoryKind::Paper => {
-            let TrajectoryDocument { kind: _, frequency_rad_s, offset_deg, sine_deg, cosine_deg } = trajectory;
-            for (name, given) in [
-                ("frequency_rad_s", frequency_rad_s.is_some()),
-                ("offset_deg", offset_deg.is_some()),
-                ("sine_deg", sine_deg.is_some()),
-                ("cosine_deg", cosine_deg.is_some()),
-            ] {
-                if given {
-                    let message = "has no meaning for kind paper, which is fixed; use kind fourier".to_owned();
-                    return Err(ScenarioError::new(format!("/trajectory/{name}"), Problem::Conflict { message }));
-                }
-            }
-            Ok(())
+        TrajectoryKind::Default => {
+            refuse_fields(trajectory, "default, which is the robot's own")?;
+            *trajectory = robot_defaults::trajectory(robot);
+            resolve_trajectory(trajectory, robot)
         }
+        TrajectoryKind::Paper if robot.kind != RobotKind::CrsA465 => {
+            let message = format!(
+                "paper is the CRS A465's trajectory and has no meaning for robot {}; use kind fourier, or default for the \
+                 robot's own",
+                robot.id
+            );
+            Err(ScenarioError::new("/trajectory/kind", Problem::Conflict { message }))
+        }
+        TrajectoryKind::Paper => refuse_fields(trajectory, "paper, which is fixed"),
         TrajectoryKind::Fourier => resolve_fourier(trajectory, robot),
     }
+}
+
+/// Refuses every field beside the kind.
+fn refuse_fields(trajectory: &TrajectoryDocument, kind: &str) -> Check {
+    let TrajectoryDocument { kind: _, frequency_rad_s, offset_deg, sine_deg, cosine_deg } = trajectory;
+    for (name, given) in [
+        ("frequency_rad_s", frequency_rad_s.is_some()),
+        ("offset_deg", offset_deg.is_some()),
+        ("sine_deg", sine_deg.is_some()),
+        ("cosine_deg", cosine_deg.is_some()),
+    ] {
+        if given {
+            let message = format!("has no meaning for kind {kind}; use kind fourier");
+            return Err(ScenarioError::new(format!("/trajectory/{name}"), Problem::Conflict { message }));
+        }
+    }
+    Ok(())
 }
 
 fn resolve_fourier(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
@@ -146,7 +163,7 @@ fn angles(pointer: &str, degrees: &[f64]) -> Check {
 fn resolve_scheme(scheme: &mut SchemeDocument, robot: &RobotData) -> Check {
     match scheme {
         SchemeDocument::Proposed(gains) => {
-            let gains = gains.get_or_insert_default();
+            let gains = RobotGains::given(gains, robot);
             check_gains("/scheme/gains", gains, robot)?;
             let bounds = &gains.projection;
             check_gains("/scheme/gains/projection", bounds, robot)?;
@@ -157,8 +174,8 @@ fn resolve_scheme(scheme: &mut SchemeDocument, robot: &RobotData) -> Check {
             }
             Ok(())
         }
-        SchemeDocument::TangArteaga(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
-        SchemeDocument::SlotineLi(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
+        SchemeDocument::TangArteaga(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
+        SchemeDocument::SlotineLi(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
     }
 }
 

@@ -8,3 +8,4 @@ mod laws;
 mod reference;
 mod replication;
 mod resumption;
+mod robots;
