@@ -150,6 +150,11 @@ pub(crate) fn power(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// Angle of the point `(x, y)`, rad; libm on every target.
+pub(crate) fn arc_tangent(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
 /// Inverse hyperbolic sine, for axes that are linear about zero and logarithmic far from it; libm on every target.
 #[cfg(feature = "figures")]
 pub(crate) fn inverse_sinh(x: f64) -> f64 {

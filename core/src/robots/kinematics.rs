@@ -58,6 +58,11 @@ impl Kinematics {
         }
     }
 
+    /// Which robot's.
+    pub fn kind(&self) -> RobotKind {
+        self.kind
+    }
+
     /// Base to shoulder, shoulder to elbow, elbow to wrist, wrist to flange, m.
     pub fn lengths_m(&self) -> [f64; 4] {
         self.lengths_m

@@ -5,12 +5,14 @@
 //! else is stored, integrated or multiplied.
 
 mod a465;
+mod inverse_kinematics;
 mod kinematics;
 mod pendulum;
 mod structure;
 mod two_link;
 
 pub use a465::CrsA465;
+pub use inverse_kinematics::Bend;
 pub use kinematics::{ArmPoints, Kinematics, Point, distance_m};
 pub use pendulum::Pendulum;
 pub use structure::{count_entries, count_pairs, list_entries, list_pairs, pattern_to_live};

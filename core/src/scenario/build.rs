@@ -1,8 +1,7 @@
 //! From a checked document to the closed loop it describes: the three schemes as points in one space.
 
-use super::document::{
-    InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
-};
+use super::build_trajectory::trajectory;
+use super::document::{InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument};
 use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
 use crate::adaptation::{
     AdaptationLaw, CompositeAdaptation, CompositeLaw, FilteredRegressor, GradientAdaptation, PredictionMemory,
@@ -16,7 +15,7 @@ use crate::recording::{Columns, Recording};
 use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
-use crate::trajectories::{Fourier, Remembered};
+use crate::trajectories::Remembered;
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
 
@@ -74,7 +73,7 @@ fn slotine_li<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
         coriolis_velocity: CoriolisVelocity::Estimated,
     };
     let adaptation = GradientAdaptation { gain: gains.vector::<T, P>(|gains| &gains.gamma_adapt) };
-    assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+    assemble::<R, _, _, T, N, P>(documents, measured::<R, T, N, P>(documents), feedback, adaptation)
 }
 
 /// Tang and Arteaga: measured velocity, composite adaptation. Source: paper eq. (8) to (12).
@@ -95,7 +94,7 @@ fn tang_arteaga<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
             memory_gain: gains.scalar(|gains| gains.delta),
         },
     };
-    assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+    assemble::<R, _, _, T, N, P>(documents, measured::<R, T, N, P>(documents), feedback, adaptation)
 }
 
 /// Proposed: observed velocity, composite adaptation with projection. Source: paper eq. (13) to (23).
@@ -131,8 +130,10 @@ fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
     assemble::<R, _, _, T, N, P>(documents, observer, feedback, adaptation)
 }
 
-fn measured<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Measured<T, N> {
-    Measured { start: trajectory(documents).at(0.0).position }
+fn measured<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
+    documents: &[&ScenarioDocument],
+) -> Measured<T, N> {
+    Measured { start: trajectory::<R, T, N, P>(documents).at(0.0).position }
 }
 
 fn assemble<R, V, A, T, const N: usize, const P: usize>(
@@ -150,7 +151,7 @@ where
     let thetas: Vec<_> = documents.iter().map(|document| theta(document, R::DATA)).collect();
     Box::new(ClosedLoop::<R, V, A, T, N, P> {
         plant: Plant::new(Lanes(&thetas).vector(|theta| theta), friction_sign(documents)),
-        trajectory: Remembered::new(trajectory(documents)),
+        trajectory: Remembered::new(trajectory::<R, T, N, P>(documents)),
         velocity_source,
         feedback,
         adaptation,
@@ -184,45 +185,13 @@ pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recor
     let theta = theta(document, robot);
     for_robot!(robot, R, N, P => {
         let plant = Plant::<R, f64, N, P>::new(SVector::from_column_slice(&theta), friction_sign(&[document]));
-        TorqueParts::of(&plant, &trajectory(&[document]), recording)
+        TorqueParts::of(&plant, &trajectory::<R, f64, N, P>(&[document]), recording)
     })
 }
 
 /// Whether an arm with these parameters can exist.
 pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64]) -> bool {
     for_robot!(robot, R, N, P => dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta)))
-}
-
-/// Whether a robot can follow both trajectories in the lanes of one simulation.
-pub(super) fn trajectories_run_beside(robot: &RobotData, a: &TrajectoryDocument, b: &TrajectoryDocument) -> bool {
-    for_robot!(robot, R, N, P => {
-        let [a, b]: [Fourier<f64, N>; 2] = [fourier(a), fourier(b)];
-        a.runs_beside(&b)
-    })
-}
-
-fn trajectory<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Fourier<T, N> {
-    let fourier: Vec<_> = documents.iter().map(|document| fourier(&document.trajectory)).collect();
-    Fourier::side_by_side(|lane| &fourier[lane.min(fourier.len() - 1)])
-}
-
-/// Source: paper eq. (24) for the paper's own.
-pub(super) fn fourier<const N: usize>(document: &TrajectoryDocument) -> Fourier<f64, N> {
-    match document.kind {
-        TrajectoryKind::Paper => Fourier::from_degrees(
-            1.0,
-            &[0.0, 90.0, -90.0],
-            &[vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]],
-            &[],
-        ),
-        // Validation leaves no other kind.
-        TrajectoryKind::Fourier | TrajectoryKind::Default => Fourier::from_degrees(
-            document.frequency_rad_s.unwrap_or(1.0),
-            document.offset_deg.as_deref().unwrap_or_default(),
-            document.sine_deg.as_deref().unwrap_or_default(),
-            document.cosine_deg.as_deref().unwrap_or_default(),
-        ),
-    }
 }
 
 /// How long, how fine, what to keep.

@@ -4,6 +4,7 @@
 //! may be left out and means what the paper does, or what docs/physics.md chose where the paper is silent.
 
 use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
+pub use super::trajectory_document::{ElbowDocument, TrajectoryDocument, TrajectoryKind};
 use serde::{Deserialize, Serialize};
 
 /// The format that this version reads and writes.
@@ -84,49 +85,6 @@ pub enum FrictionKind {
 impl Default for FrictionDocument {
     fn default() -> Self {
         Self { kind: FrictionKind::Tanh, width_rad_s: 0.01 }
-    }
-}
-
-/// The desired trajectory. One struct for all kinds, so that a mistake in it is found at its place.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = super::schema::trajectory))]
-#[serde(deny_unknown_fields)]
-pub struct TrajectoryDocument {
-    /// Which; the other fields belong to `fourier`.
-    pub kind: TrajectoryKind,
-    /// Base angular frequency, rad/s; 1 when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub frequency_rad_s: Option<f64>,
-    /// Constant part per joint, deg.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub offset_deg: Option<Vec<f64>>,
-    /// Amplitudes of the sines per joint and harmonic, deg; none when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sine_deg: Option<Vec<Vec<f64>>>,
-    /// Amplitudes of the cosines per joint and harmonic, deg; none when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cosine_deg: Option<Vec<Vec<f64>>>,
-}
-
-/// Kind of trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum TrajectoryKind {
-    /// Paper eq. (24); for the A465 only.
-    #[default]
-    Paper,
-    /// A finite Fourier series per joint.
-    Fourier,
-    /// The robot's own: `paper` for the A465, a `fourier` for each other. The canonical form says which.
-    Default,
-}
-
-impl TrajectoryDocument {
-    /// The robot's own, whichever robot it is.
-    pub fn of_robot() -> Self {
-        Self { kind: TrajectoryKind::Default, ..Self::default() }
     }
 }
 

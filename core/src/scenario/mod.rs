@@ -4,6 +4,7 @@
 //! the physics cannot fail except by diverging. Reads any serde format and knows no JSON text.
 
 mod build;
+mod build_trajectory;
 mod document;
 mod error;
 mod gains;
@@ -13,13 +14,15 @@ mod robot_defaults;
 #[cfg(feature = "schema")]
 mod schema;
 mod side_by_side;
+mod trajectory_document;
 mod tree;
 mod validate;
+mod validate_trajectory;
 
 pub use document::{
-    FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument, IntegrationDocument,
-    MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
-    TrajectoryKind,
+    ElbowDocument, FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument,
+    IntegrationDocument, MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument,
+    TrajectoryDocument, TrajectoryKind,
 };
 pub use error::{Problem, ScenarioError, in_plain_words};
 pub use gains::{GainInfo, GainSet, GainShape, ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};

@@ -93,6 +93,7 @@ pub(super) fn trajectory(robot: &RobotData) -> TrajectoryDocument {
         offset_deg: Some(offset_deg),
         sine_deg: Some(sine_deg),
         cosine_deg: Some(cosine_deg),
+        ..TrajectoryDocument::default()
     };
     match robot.kind {
         RobotKind::CrsA465 => TrajectoryDocument::default(),

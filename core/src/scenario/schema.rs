@@ -1,9 +1,10 @@
 //! The JSON Schema of a scenario says all that `validate` demands of one field: ranges, lengths, and which fields belong to
 //! which kind. Parts allow what some robot allows; the whole says which lengths belong to which robot. What holds between fields (steps in all, the projection's two bounds, positive inertia) it cannot say.
 
-use super::document::FORMAT;
+use super::document::{FORMAT, TrajectoryDocument, TrajectoryKind};
 use super::gains::{GainInfo, GainShape};
 use super::validate::LIMITS;
+use super::validate_trajectory::{fields, needed};
 use crate::robots::{ROBOTS, RobotData, RobotKind};
 use schemars::{Schema, json_schema, transform::Transform};
 
@@ -69,10 +70,12 @@ fn of_robot(robot: &RobotData) -> Schema {
             GainShape::Parameter => gains.insert(gain.name.to_owned(), exactly(parameters).into()),
         };
     }
-    let mut kinds = vec!["default", "fourier"];
-    if robot.kind == RobotKind::CrsA465 {
-        kinds.push("paper");
-    }
+    let is_the_papers = robot.kind == RobotKind::CrsA465;
+    let kinds: Vec<_> = TrajectoryKind::ALL
+        .into_iter()
+        .filter(|kind| is_the_papers || *kind != TrajectoryKind::Paper)
+        .map(TrajectoryKind::id)
+        .collect();
     let amplitudes = json_schema!({ "maxItems": joints });
     json_schema!({ "if": named, "then": { "properties": {
         "plant": { "properties": { "theta_scale": factors } },
@@ -82,6 +85,8 @@ fn of_robot(robot: &RobotData) -> Schema {
             "offset_deg": exactly(joints),
             "sine_deg": amplitudes,
             "cosine_deg": amplitudes,
+            "amplitude_deg": exactly(joints),
+            "points_deg": { "items": exactly(joints) },
         } },
     } } })
 }
@@ -113,19 +118,47 @@ pub(super) fn trajectory(schema: &mut Schema) {
         });
         refine(schema, &format!("/properties/{name}"), &amplitudes);
     }
-    let nothing = json_schema!({ "type": "null" });
-    let fixed = json_schema!({ "properties": {
-        "kind": { "enum": ["paper", "default"] },
-        "frequency_rad_s": nothing,
-        "offset_deg": nothing,
-        "sine_deg": nothing,
-        "cosine_deg": nothing,
-    } });
-    let fourier = json_schema!({
-        "properties": { "kind": { "const": "fourier" }, "offset_deg": { "type": "array" } },
-        "required": ["offset_deg"],
+    refine(schema, "/properties/harmonics", &json_schema!({ "minimum": 1, "maximum": LIMITS.harmonics }));
+    refine(schema, "/properties/amplitude_deg", &list(RobotData::joint_count, LIMITS.angle_deg));
+    let (fewest, _) = of_all_robots(RobotData::joint_count);
+    let row = json_schema!({
+        "type": "array", "minItems": fewest, "maxItems": joints, "items": number(LIMITS.angle_deg),
     });
-    refine(schema, "", &json_schema!({ "oneOf": [fixed, fourier] }));
+    refine(schema, "/properties/points_deg", &json_schema!({ "minItems": 1, "maxItems": LIMITS.points, "items": row }));
+    let latest = [0.0, LIMITS.duration_s[1]];
+    let times = json_schema!({ "minItems": 2, "maxItems": LIMITS.points, "items": number(latest) });
+    refine(schema, "/properties/times_s", &times);
+    for name in ["from_m", "to_m", "centre_m", "normal"] {
+        let point = json_schema!({ "minItems": 3, "maxItems": 3, "items": number(LIMITS.coordinate_m) });
+        refine(schema, &format!("/properties/{name}"), &point);
+    }
+    for (name, limits) in [
+        ("rms_deg_s", LIMITS.rms_deg_s),
+        ("frequency_end_rad_s", LIMITS.frequency_rad_s),
+        ("sweep_s", LIMITS.move_s),
+        ("move_s", LIMITS.move_s),
+        ("dwell_s", [0.0, LIMITS.move_s[1]]),
+        ("radius_m", LIMITS.radius_m),
+        ("period_s", LIMITS.move_s),
+    ] {
+        refine(schema, &format!("/properties/{name}"), &range(limits));
+    }
+    let kinds: Vec<_> = TrajectoryKind::ALL.into_iter().map(of_kind).collect();
+    refine(schema, "", &json_schema!({ "oneOf": kinds }));
+}
+
+/// One kind of trajectory: it needs some fields and has nothing in those of other kinds.
+fn of_kind(kind: TrajectoryKind) -> Schema {
+    let needed = needed(kind);
+    let mut properties = json_schema!({ "kind": { "const": kind.id() } });
+    for (name, _) in TrajectoryDocument::default().given() {
+        if !fields(kind).contains(&name) {
+            properties.insert(name.to_owned(), json_schema!({ "type": "null" }).into());
+        } else if needed.contains(&name) {
+            properties.insert(name.to_owned(), json_schema!({ "not": { "type": "null" } }).into());
+        }
+    }
+    json_schema!({ "properties": properties, "required": needed })
 }
 
 /// Of the scheme: gains may be left out.

@@ -2,7 +2,7 @@
 //!
 //! Each gets the bits that it has alone; what cannot share lanes runs by itself.
 
-use super::{Run, Scenario, build};
+use super::{Run, Scenario, build, build_trajectory};
 use crate::lanes::{self, WithLanes};
 use crate::robots::for_robot;
 use crate::scalar::Scalar;
@@ -41,7 +41,7 @@ impl Scenario {
             && settings.steps_on_grid().is_some()
             && a.initial.velocity == b.initial.velocity
             && build::is_true_sign(a) == build::is_true_sign(b)
-            && build::trajectories_run_beside(self.robot, &a.trajectory, &b.trajectory)
+            && build_trajectory::run_beside(self.robot, a, b)
     }
 }
 

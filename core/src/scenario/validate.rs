@@ -1,10 +1,11 @@
 //! What a scenario may say. Checks a document once and fills in everything it left out.
 
-use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind};
+use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument};
 use super::error::{Problem, ScenarioError};
 use super::gains::{GainSet, GainShape};
-use super::robot_defaults::{self, RobotGains};
-use crate::robots::{ROBOTS, RobotData, RobotKind, robot};
+use super::robot_defaults::RobotGains;
+use super::validate_trajectory::resolve_trajectory;
+use crate::robots::{ROBOTS, RobotData, robot};
 
 /// Limits on what a scenario can ask for. All are inclusive.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -30,6 +31,16 @@ pub struct Limits {
     pub angle_deg: [f64; 2],
     /// Most harmonics of a Fourier trajectory.
     pub harmonics: usize,
+    /// Root mean square velocity of a random Fourier trajectory, deg/s.
+    pub rms_deg_s: [f64; 2],
+    /// Time of a move, a sweep or a round, s.
+    pub move_s: [f64; 2],
+    /// Most points or samples of a trajectory.
+    pub points: usize,
+    /// Coordinate of a point in space, m.
+    pub coordinate_m: [f64; 2],
+    /// Radius of a circle, m.
+    pub radius_m: [f64; 2],
     /// Tolerances of an adaptive method.
     pub tolerance: [f64; 2],
 }
@@ -46,6 +57,11 @@ pub const LIMITS: Limits = Limits {
     frequency_rad_s: [1e-3, 100.0],
     angle_deg: [-3600.0, 3600.0],
     harmonics: 50,
+    rms_deg_s: [1e-3, 1e4],
+    move_s: [1e-3, 1e5],
+    points: 10_000,
+    coordinate_m: [-10.0, 10.0],
+    radius_m: [1e-4, 10.0],
     tolerance: [1e-14, 1e-2],
 };
 
@@ -53,7 +69,8 @@ pub const LIMITS: Limits = Limits {
 const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-10;
 const DEFAULT_ABSOLUTE_TOLERANCE: f64 = 1e-12;
 
-type Check = Result<(), ScenarioError>;
+/// What a check gives.
+pub(super) type Check = Result<(), ScenarioError>;
 
 /// Checks a document and fills in what it left out.
 pub(super) fn resolve(mut document: ScenarioDocument) -> Result<(ScenarioDocument, &'static RobotData), ScenarioError> {
@@ -91,73 +108,6 @@ fn resolve_plant(document: &mut ScenarioDocument, robot: &RobotData) -> Check {
         )?;
     }
     Ok(())
-}
-
-fn resolve_trajectory(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
-    match trajectory.kind {
-        TrajectoryKind::Default => {
-            refuse_fields(trajectory, "default, which is the robot's own")?;
-            *trajectory = robot_defaults::trajectory(robot);
-            resolve_trajectory(trajectory, robot)
-        }
-        TrajectoryKind::Paper if robot.kind != RobotKind::CrsA465 => {
-            let message = format!(
-                "paper is the CRS A465's trajectory and has no meaning for robot {}; use kind fourier, or default for the \
-                 robot's own",
-                robot.id
-            );
-            Err(ScenarioError::new("/trajectory/kind", Problem::Conflict { message }))
-        }
-        TrajectoryKind::Paper => refuse_fields(trajectory, "paper, which is fixed"),
-        TrajectoryKind::Fourier => resolve_fourier(trajectory, robot),
-    }
-}
-
-/// Refuses every field beside the kind.
-fn refuse_fields(trajectory: &TrajectoryDocument, kind: &str) -> Check {
-    let TrajectoryDocument { kind: _, frequency_rad_s, offset_deg, sine_deg, cosine_deg } = trajectory;
-    for (name, given) in [
-        ("frequency_rad_s", frequency_rad_s.is_some()),
-        ("offset_deg", offset_deg.is_some()),
-        ("sine_deg", sine_deg.is_some()),
-        ("cosine_deg", cosine_deg.is_some()),
-    ] {
-        if given {
-            let message = format!("has no meaning for kind {kind}; use kind fourier");
-            return Err(ScenarioError::new(format!("/trajectory/{name}"), Problem::Conflict { message }));
-        }
-    }
-    Ok(())
-}
-
-fn resolve_fourier(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
-    let joints = robot.joint_count();
-    let frequency_rad_s = *trajectory.frequency_rad_s.get_or_insert(1.0);
-    range("/trajectory/frequency_rad_s", frequency_rad_s, LIMITS.frequency_rad_s, "rad/s")?;
-    let Some(offset_deg) = &trajectory.offset_deg else {
-        let message = "missing; a trajectory of kind fourier needs one angle per joint of the robot".to_owned();
-        return Err(ScenarioError::new("/trajectory/offset_deg", Problem::Conflict { message }));
-    };
-    length("/trajectory/offset_deg", offset_deg.len(), joints, "one per joint of the robot")?;
-    angles("/trajectory/offset_deg", offset_deg)?;
-    for (name, rows) in [("sine_deg", &mut trajectory.sine_deg), ("cosine_deg", &mut trajectory.cosine_deg)] {
-        let pointer = format!("/trajectory/{name}");
-        let rows = rows.get_or_insert_default();
-        at_most(&pointer, rows.len(), joints, "lists: one per joint of the robot")?;
-        for (joint, row) in rows.iter().enumerate() {
-            let pointer = format!("{pointer}/{joint}");
-            at_most(&pointer, row.len(), LIMITS.harmonics, "numbers: one per harmonic")?;
-            angles(&pointer, row)?;
-        }
-    }
-    Ok(())
-}
-
-fn angles(pointer: &str, degrees: &[f64]) -> Check {
-    degrees
-        .iter()
-        .enumerate()
-        .try_for_each(|(n, angle)| range(&format!("{pointer}/{n}"), *angle, LIMITS.angle_deg, "deg"))
 }
 
 fn resolve_scheme(scheme: &mut SchemeDocument, robot: &RobotData) -> Check {
@@ -234,11 +184,11 @@ fn unknown(pointer: &str, value: &str, allowed: &str) -> ScenarioError {
     ScenarioError::new(pointer, Problem::Unknown { value, allowed: allowed.to_owned() })
 }
 
-fn at_most(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
+pub(super) fn at_most(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
     if found <= most { Ok(()) } else { Err(ScenarioError::new(pointer, Problem::TooMany { found, most, what })) }
 }
 
-fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Check {
+pub(super) fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Check {
     if found == expected {
         Ok(())
     } else {
@@ -246,7 +196,7 @@ fn length(pointer: &str, found: usize, expected: usize, why: &'static str) -> Ch
     }
 }
 
-fn range(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static str) -> Check {
+pub(super) fn range(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static str) -> Check {
     // Written so that NaN fails.
     if value >= min && value <= max {
         Ok(())

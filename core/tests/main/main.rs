@@ -9,3 +9,4 @@ mod reference;
 mod replication;
 mod resumption;
 mod robots;
+mod trajectories;
