@@ -7,7 +7,7 @@ use crate::dynamics::{Plant, solve_symmetric};
 use crate::metrics::performance_index;
 use crate::recording::{Recording, Signal};
 use crate::robots::Robot;
-use crate::trajectories::Fourier;
+use crate::trajectories::Trajectory;
 use nalgebra::SVector;
 
 /// A part of a joint's torque.
@@ -67,7 +67,7 @@ impl TorqueParts {
     /// The parts along a recording of `plant` following `trajectory`. `τ = Σ parts` per joint and sample, up to rounding.
     pub(crate) fn of<R: Robot<N, P>, const N: usize, const P: usize>(
         plant: &Plant<R, f64, N, P>,
-        trajectory: &Fourier<f64, N>,
+        trajectory: &Trajectory<f64, N>,
         recording: &Recording,
     ) -> Self {
         let columns = recording.columns();

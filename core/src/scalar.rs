@@ -112,6 +112,11 @@ pub(crate) fn log_gamma(x: f64) -> f64 {
     libm::lgamma(x)
 }
 
+/// Angle of the point `(x, y)`, rad; libm on every target.
+pub(crate) fn arc_tangent(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
 /// Inverse hyperbolic sine, for axes that are linear about zero and logarithmic far from it; libm on every target.
 #[cfg(feature = "figures")]
 pub(crate) fn inverse_sinh(x: f64) -> f64 {

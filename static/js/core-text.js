@@ -24,7 +24,7 @@ export function translated(description) {
       ...robot,
       name: coreText("robots", robot.id, robot.name),
       joints: robot.joints.map((name) => coreText("joints", name, name)),
-      parameters: robot.parameters.map((one) => ({ ...one, meaning: coreText("parameters", one.symbol, one.meaning) })),
+      parameters: robot.parameters.map((one) => ({ ...one, meaning: parameterMeaning(robot, one) })),
     })),
     presets: presets?.map((preset) => ({
       ...preset,
@@ -32,6 +32,11 @@ export function translated(description) {
       description: coreText("presetDescriptions", preset.id, preset.description),
     })),
   };
+}
+
+/** Every robot has a θ1: plain symbols are the A465's. */
+function parameterMeaning(robot, { symbol, meaning }) {
+  return coreText("parameters", robot.id === "crs_a465" ? symbol : `${robot.id}.${symbol}`, meaning);
 }
 
 /** The same name may mean something else in another scheme; mostly it does not. */

@@ -22,6 +22,33 @@ pub struct Projection<T, const P: usize> {
 }
 
 impl<T: Scalar, const P: usize> Projection<T, P> {
+    /// Bounds from nominal values θo, `[soft, hard]` factors of them and the margin at zero: `[0, soft θo]` as in the paper where
+    /// θo > 0, mirrored to `[soft θo, 0]` where θo < 0, and where θo = 0 says neither sign nor size, `±soft` SI units. The
+    /// margin at zero is the one given, the other `(hard − soft) |θo|`. Source: paper eq. (20) for θo > 0; the rest chosen.
+    pub fn around(nominal: impl Fn(usize) -> f64, strength: T, margin_at_zero: T, [soft, hard]: [T; 2]) -> Self {
+        let far_margin = hard - soft;
+        let mut bounds = Self {
+            strength,
+            lower: SVector::zeros(),
+            lower_margin: SVector::from_element(margin_at_zero),
+            upper: SVector::zeros(),
+            upper_margin: SVector::from_element(margin_at_zero),
+        };
+        for k in 0..P {
+            let value = nominal(k);
+            let size = T::splat(if value == 0.0 { 1.0 } else { f64::abs(value) });
+            if value >= 0.0 {
+                bounds.upper[k] = soft * size;
+                bounds.upper_margin[k] = far_margin * size;
+            }
+            if value <= 0.0 {
+                bounds.lower[k] = -(soft * size);
+                bounds.lower_margin[k] = far_margin * size;
+            }
+        }
+        bounds
+    }
+
     /// `f_b,i` for estimate θ̂_i that is driven by `drive_i = β w_i + (Yᵀ s)_i`. Source: paper eq. (19), (20).
     #[inline(always)]
     pub fn correction(&self, i: usize, theta_hat: T, drive: T) -> T {
@@ -56,6 +83,19 @@ mod tests {
             lower_margin: SVector::from([1e-4]),
             upper: SVector::from([10.0]),
             upper_margin: SVector::from([0.1]),
+        }
+    }
+
+    #[test]
+    fn bounds_keep_a_meaning_whatever_the_nominal_value() {
+        let p = Projection::<f64, 3>::around(|k| [2.0, -2.0, 0.0][k], 2.5, 1e-4, [10.0, 10.5]);
+        assert_eq!(p.lower, SVector::from([0.0, -20.0, -10.0]));
+        assert_eq!(p.upper, SVector::from([20.0, 0.0, 10.0]));
+        assert_eq!(p.lower_margin, SVector::from([1e-4, 1.0, 0.5]));
+        assert_eq!(p.upper_margin, SVector::from([1.0, 1e-4, 0.5]));
+        for (k, inside) in [(0, 3.0), (1, -3.0), (2, 3.0), (2, -3.0)] {
+            assert_eq!(p.correction(k, inside, 1.0), 0.0);
+            assert_eq!((p.correction(k, 99.0, 1.0), p.correction(k, -99.0, 1.0)), (2.5, -2.5));
         }
     }
 

@@ -4,8 +4,8 @@
 //! `c2 = cos q2`, `s23 = sin(q2 + q3)` and so on. The paper cites a model it does not print; the assignment of θ1..θ7 to
 //! terms is an assumption, listed in the replication report.
 
-use super::structure::{count_entries, count_pairs, list_entries, list_pairs};
-use super::{Parameter, Regressor, Robot, RobotData};
+use super::structure::{count_entries, count_pairs, list_entries, list_pairs, pattern_to_live};
+use super::{INERTIA, Parameter, Regressor, Robot, RobotData, RobotKind, TORQUE, VISCOUS};
 use crate::scalar::Scalar;
 use nalgebra::{SMatrix, SVector};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -173,21 +173,7 @@ fn add_friction_and_gravity<T: Scalar>(
 /// Pattern of the regressor: `#` may differ from zero. Columns θ1..θ18.
 const PATTERN: [&[u8; P]; N] = [b"#.######..#..#....", b"#######.#..#..#.##", b"##..###..#..#..#.#"];
 
-const fn pattern_to_live() -> [[bool; P]; N] {
-    let mut live = [[false; P]; N];
-    let mut row = 0;
-    while row < N {
-        let mut column = 0;
-        while column < P {
-            live[row][column] = PATTERN[row][column] == b'#';
-            column += 1;
-        }
-        row += 1;
-    }
-    live
-}
-
-const LIVE: [[bool; P]; N] = pattern_to_live();
+const LIVE: [[bool; P]; N] = pattern_to_live(&PATTERN);
 
 impl Robot<N, P> for CrsA465 {
     type Geometry<T: Scalar> = Geometry<T>;
@@ -302,12 +288,9 @@ const fn parameter(
     Parameter { symbol, unit, meaning, value, inertial }
 }
 
-const INERTIA: &str = "kg·m²";
-const VISCOUS: &str = "N·m·s";
-const TORQUE: &str = "N·m";
-
 /// Source: paper sections 2.1 and 4.1; lengths and limits from public descriptions of the arm.
 static DATA: RobotData = RobotData {
+    kind: RobotKind::CrsA465,
     id: "crs_a465",
     name: "CRS A465, first three joints",
     joints: &["waist", "shoulder", "elbow"],
@@ -337,5 +320,5 @@ static DATA: RobotData = RobotData {
     joint_limit_rad: &[175.0 * PI / 180.0, 90.0 * PI / 180.0, 110.0 * PI / 180.0],
     joint_zero_rad: &[0.0, FRAC_PI_2, 0.0],
     effort_limit_nm: &[39.5, 66.08, 39.5],
-    link_lengths_m: &[0.3302, 0.3048, 0.3302, 0.0762],
+    link_lengths_m: [0.3302, 0.3048, 0.3302, 0.0762],
 };

@@ -5,14 +5,20 @@
 //! else is stored, integrated or multiplied.
 
 mod a465;
+mod inverse_kinematics;
 mod kinematics;
 mod payload;
+mod pendulum;
 mod structure;
+mod two_link;
 
 pub use a465::CrsA465;
+pub use inverse_kinematics::Bend;
 pub use kinematics::{ArmPoints, Kinematics, Point, distance_m};
 pub use payload::payload_parameters;
-pub use structure::{count_entries, count_pairs, list_entries, list_pairs};
+pub use pendulum::Pendulum;
+pub use structure::{count_entries, count_pairs, list_entries, list_pairs, pattern_to_live};
+pub use two_link::TwoLink;
 
 use crate::scalar::Scalar;
 use nalgebra::{SMatrix, SVector};
@@ -78,15 +84,32 @@ pub struct Parameter {
     pub unit: &'static str,
     /// What it stands for.
     pub meaning: &'static str,
-    /// The paper's true value.
+    /// The nominal value: the paper's true one for the A465.
     pub value: f64,
     /// Whether it enters the inertia matrix, which must stay positive.
     pub inertial: bool,
 }
 
+const INERTIA: &str = "kg·m²";
+const VISCOUS: &str = "N·m·s";
+const TORQUE: &str = "N·m";
+
+/// Which robot: the compiler names every place that must know all of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RobotKind {
+    /// [`CrsA465`].
+    CrsA465,
+    /// [`TwoLink`].
+    TwoLink,
+    /// [`Pendulum`].
+    Pendulum,
+}
+
 /// A robot's facts for people, pictures and limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RobotData {
+    /// Which robot.
+    pub kind: RobotKind,
     /// Identifier in scenarios: `crs_a465`.
     pub id: &'static str,
     /// Full name.
@@ -106,7 +129,7 @@ pub struct RobotData {
     /// Joint effort limit, N·m (one public description; unverified).
     pub effort_limit_nm: &'static [f64],
     /// Base to shoulder, shoulder to elbow, elbow to wrist, wrist to flange, m.
-    pub link_lengths_m: &'static [f64],
+    pub link_lengths_m: [f64; 4],
 }
 
 impl RobotData {
@@ -132,7 +155,30 @@ impl RobotData {
 }
 
 /// Every robot that a scenario can name.
-pub const ROBOTS: &[&RobotData] = &[<CrsA465 as Robot<3, 18>>::DATA];
+pub const ROBOTS: &[&RobotData] =
+    &[<CrsA465 as Robot<3, 18>>::DATA, <TwoLink as Robot<2, 11>>::DATA, <Pendulum as Robot<1, 4>>::DATA];
+
+/// `for_robot!(data, R, N, P => expression)` evaluates the expression with the type, the number of joints and the number of
+/// parameters of the robot that `data` describes.
+macro_rules! for_robot {
+    (@as $type:ident, $joints:literal, $parameters:literal, $robot:ident, $n:ident, $p:ident, $body:expr) => {{
+        #[allow(dead_code, reason = "not every expression needs all three")]
+        type $robot = $crate::robots::$type;
+        #[allow(dead_code, reason = "as above")]
+        const $n: usize = $joints;
+        #[allow(dead_code, reason = "as above")]
+        const $p: usize = $parameters;
+        $body
+    }};
+    ($data:expr, $robot:ident, $n:ident, $p:ident => $body:expr) => {
+        match $data.kind {
+            $crate::robots::RobotKind::CrsA465 => for_robot!(@as CrsA465, 3, 18, $robot, $n, $p, $body),
+            $crate::robots::RobotKind::TwoLink => for_robot!(@as TwoLink, 2, 11, $robot, $n, $p, $body),
+            $crate::robots::RobotKind::Pendulum => for_robot!(@as Pendulum, 1, 4, $robot, $n, $p, $body),
+        }
+    };
+}
+pub(crate) use for_robot;
 
 /// The robot that a scenario calls `id`.
 pub fn robot(id: &str) -> Option<&'static RobotData> {

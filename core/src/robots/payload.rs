@@ -11,7 +11,7 @@ use super::RobotData;
 pub fn payload_parameters(robot: &RobotData) -> Option<Vec<f64>> {
     const GRAVITY: f64 = 9.81;
     match (robot.id, robot.link_lengths_m) {
-        ("crs_a465", &[_, upper, forearm, wrist]) => {
+        ("crs_a465", [_, upper, forearm, wrist]) => {
             let l3 = forearm + wrist;
             let mut change = vec![0.0; robot.parameter_count()];
             for (parameter, value) in [
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn a_mass_at_the_flange_is_a_mass_at_the_flange() {
         let change = SVector::<f64, 18>::from_vec(payload_parameters(CrsA465::DATA).unwrap());
-        let &[_, l2, forearm, wrist] = CrsA465::DATA.link_lengths_m else { panic!("four lengths") };
+        let [_, l2, forearm, wrist] = CrsA465::DATA.link_lengths_m;
         let point = |q: Vector3<f64>| {
             let (r, z) = (
                 l2 * q[1].cos() + (forearm + wrist) * (q[1] + q[2]).cos(),

@@ -1,5 +1,20 @@
 //! Compile-time bookkeeping of a regressor's zeros: from the pattern that a robot states to the lists that loops run over.
 
+/// Reads a pattern that is drawn, one row per joint and one character per parameter: `#` may differ from zero.
+pub const fn pattern_to_live<const N: usize, const P: usize>(pattern: &[&[u8; P]; N]) -> [[bool; P]; N] {
+    let mut live = [[false; P]; N];
+    let mut row = 0;
+    while row < N {
+        let mut column = 0;
+        while column < P {
+            live[row][column] = pattern[row][column] == b'#';
+            column += 1;
+        }
+        row += 1;
+    }
+    live
+}
+
 /// How many entries of the pattern are live.
 pub const fn count_entries<const N: usize, const P: usize>(live: &[[bool; P]; N]) -> usize {
     let mut count = 0;

@@ -1,9 +1,8 @@
 //! From a checked document to the closed loop it describes: the three schemes as points in one space.
 
-use super::document::{
-    InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
-};
-use super::gains::{ProjectionBounds, ProposedGains, SlotineLiGains, TangArteagaGains};
+use super::build_trajectory::trajectory;
+use super::document::{InitialVelocityDocument, MethodDocument, ScenarioDocument, SchemeDocument};
+use super::gains::{ProposedGains, SlotineLiGains, TangArteagaGains};
 use crate::adaptation::{
     AdaptationLaw, CompositeAdaptation, CompositeLaw, FilteredRegressor, GradientAdaptation, PredictionMemory,
     Projection,
@@ -13,10 +12,10 @@ use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
 use crate::recording::{Columns, Recording};
-use crate::robots::{CrsA465, Robot, RobotData};
+use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
-use crate::trajectories::{Fourier, Remembered};
+use crate::trajectories::Remembered;
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
 
@@ -59,11 +58,11 @@ pub(super) fn closed_loop<R: Robot<N, P>, T: Scalar, const N: usize, const P: us
     match &documents[0].scheme {
         SchemeDocument::SlotineLi(_) => {
             let (feedback, adaptation) = slotine_li::<T, N, P>(&Lanes(&gains!(SlotineLi)));
-            assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+            assemble::<R, _, _, T, N, P>(documents, measured::<R, T, N, P>(documents), feedback, adaptation)
         }
         SchemeDocument::TangArteaga(_) => {
             let (feedback, adaptation) = tang_arteaga::<R, T, N, P>(&Lanes(&gains!(TangArteaga)));
-            assemble::<R, _, _, T, N, P>(documents, measured(documents), feedback, adaptation)
+            assemble::<R, _, _, T, N, P>(documents, measured::<R, T, N, P>(documents), feedback, adaptation)
         }
         SchemeDocument::Proposed(_) => {
             let (observer, feedback, adaptation) = proposed::<R, T, N, P>(&Lanes(&gains!(Proposed)));
@@ -122,16 +121,12 @@ pub(super) fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize
         lambda: gains.vector(|gains| &gains.lambda),
         coriolis_velocity: CoriolisVelocity::Reference,
     };
-    let nominal = |factor: fn(&ProjectionBounds) -> f64| {
-        SVector::<T, P>::from_fn(|k, _| gains.scalar(|gains| factor(&gains.projection) * R::DATA.parameters[k].value))
-    };
-    let projection = Projection {
-        strength: gains.scalar(|gains| gains.rho),
-        lower: SVector::zeros(),
-        lower_margin: SVector::from_element(gains.scalar(|gains| gains.projection.lower_margin)),
-        upper: nominal(|bounds| bounds.upper_factor),
-        upper_margin: nominal(|bounds| bounds.upper_hard_factor - bounds.upper_factor),
-    };
+    let projection = Projection::around(
+        |k| R::DATA.parameters[k].value,
+        gains.scalar(|gains| gains.rho),
+        gains.scalar(|gains| gains.projection.lower_margin),
+        [gains.scalar(|gains| gains.projection.upper_factor), gains.scalar(|gains| gains.projection.upper_hard_factor)],
+    );
     let adaptation = CompositeAdaptation::<R, T, N, P> {
         filter: FilteredRegressor::new(gains.scalar(|gains| gains.filter_rad_s)),
         memory: PredictionMemory::new(gains.scalar(|gains| gains.gamma), gains.scalar(|gains| gains.forgetting)),
@@ -144,8 +139,10 @@ pub(super) fn proposed<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize
     (observer, feedback, adaptation)
 }
 
-pub(super) fn measured<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Measured<T, N> {
-    Measured { start: trajectory(documents).at(0.0).position }
+pub(super) fn measured<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize>(
+    documents: &[&ScenarioDocument],
+) -> Measured<T, N> {
+    Measured { start: trajectory::<R, T, N, P>(documents).at(0.0).position }
 }
 
 fn assemble<R, V, A, T, const N: usize, const P: usize>(
@@ -163,7 +160,7 @@ where
     let thetas: Vec<_> = documents.iter().map(|document| theta(document, R::DATA)).collect();
     Box::new(ClosedLoop::<R, V, A, T, N, P> {
         plant: Plant::new(Lanes(&thetas).vector(|theta| theta), friction_sign(documents)),
-        trajectory: Remembered::new(trajectory(documents)),
+        trajectory: Remembered::new(trajectory::<R, T, N, P>(documents)),
         velocity_source,
         feedback,
         adaptation,
@@ -194,39 +191,16 @@ pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> 
 
 /// A recording's torques, split by the arm that the document describes.
 pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recording: &Recording) -> TorqueParts {
-    // The one robot so far, as in `Scenario::closed_loop`.
-    let theta = SVector::from_column_slice(&theta(document, robot));
-    let plant = Plant::<CrsA465, f64, 3, 18>::new(theta, friction_sign(&[document]));
-    TorqueParts::of(&plant, &trajectory(&[document]), recording)
+    let theta = theta(document, robot);
+    for_robot!(robot, R, N, P => {
+        let plant = Plant::<R, f64, N, P>::new(SVector::from_column_slice(&theta), friction_sign(&[document]));
+        TorqueParts::of(&plant, &trajectory::<R, f64, N, P>(&[document]), recording)
+    })
 }
 
 /// Whether an arm with these parameters can exist.
-pub(super) fn has_positive_inertia(theta: &[f64]) -> bool {
-    // The one robot so far, as in `Scenario::closed_loop`.
-    dynamics::has_positive_inertia::<CrsA465, 3, 18>(&SVector::from_column_slice(theta))
-}
-
-pub(super) fn trajectory<T: Scalar, const N: usize>(documents: &[&ScenarioDocument]) -> Fourier<T, N> {
-    let fourier: Vec<_> = documents.iter().map(|document| fourier(&document.trajectory)).collect();
-    Fourier::side_by_side(|lane| &fourier[lane.min(fourier.len() - 1)])
-}
-
-/// Source: paper eq. (24) for the paper's own.
-pub(super) fn fourier<const N: usize>(document: &TrajectoryDocument) -> Fourier<f64, N> {
-    match document.kind {
-        TrajectoryKind::Paper => Fourier::from_degrees(
-            1.0,
-            &[0.0, 90.0, -90.0],
-            &[vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]],
-            &[],
-        ),
-        TrajectoryKind::Fourier => Fourier::from_degrees(
-            document.frequency_rad_s.unwrap_or(1.0),
-            document.offset_deg.as_deref().unwrap_or_default(),
-            document.sine_deg.as_deref().unwrap_or_default(),
-            document.cosine_deg.as_deref().unwrap_or_default(),
-        ),
-    }
+pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64]) -> bool {
+    for_robot!(robot, R, N, P => dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta)))
 }
 
 /// How long, how fine, what to keep.

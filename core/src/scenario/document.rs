@@ -5,6 +5,7 @@
 
 use super::beyond::{AdaptationDocument, EffectsDocument, VelocityDocument};
 use super::gains::{ComputedTorqueGains, PdGains, PdGravityGains, ProposedGains, SlotineLiGains, TangArteagaGains};
+pub use super::trajectory_document::{ElbowDocument, TrajectoryDocument, TrajectoryKind};
 use serde::{Deserialize, Serialize};
 
 /// The format that this version reads and writes.
@@ -24,8 +25,8 @@ pub struct ScenarioDocument {
     /// How the simulated arm differs from the nominal one.
     #[serde(default)]
     pub plant: PlantDocument,
-    /// Where the arm should go.
-    #[serde(default)]
+    /// Where the arm should go; the robot's own trajectory when left out.
+    #[serde(default = "TrajectoryDocument::of_robot")]
     pub trajectory: TrajectoryDocument,
     /// Which controller.
     pub scheme: SchemeDocument,
@@ -52,7 +53,7 @@ pub struct ScenarioDocument {
     pub seed: u64,
 }
 
-fn default_robot() -> String {
+pub(super) fn default_robot() -> String {
     "crs_a465".to_owned()
 }
 
@@ -97,41 +98,7 @@ impl Default for FrictionDocument {
     }
 }
 
-/// The desired trajectory. One struct for all kinds, so that a mistake in it is found at its place.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = super::schema::trajectory))]
-#[serde(deny_unknown_fields)]
-pub struct TrajectoryDocument {
-    /// Which; the other fields belong to `fourier`.
-    pub kind: TrajectoryKind,
-    /// Base angular frequency, rad/s; 1 when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub frequency_rad_s: Option<f64>,
-    /// Constant part per joint, deg.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub offset_deg: Option<Vec<f64>>,
-    /// Amplitudes of the sines per joint and harmonic, deg; none when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sine_deg: Option<Vec<Vec<f64>>>,
-    /// Amplitudes of the cosines per joint and harmonic, deg; none when left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cosine_deg: Option<Vec<Vec<f64>>>,
-}
-
-/// Kind of trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum TrajectoryKind {
-    /// Paper eq. (24).
-    #[default]
-    Paper,
-    /// A finite Fourier series per joint.
-    Fourier,
-}
-
-/// A control scheme with its gains; gains left out are the paper's.
+/// A control scheme with its gains; gains left out are the robot's own: the paper's for the A465.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = super::schema::scheme))]
@@ -233,6 +200,12 @@ impl Default for RecordingDocument {
 }
 
 impl ScenarioDocument {
+    /// A robot under a scheme, along the robot's own trajectory.
+    pub fn of_robot(robot: &str, scheme: SchemeDocument) -> Self {
+        let trajectory = TrajectoryDocument::of_robot();
+        Self { robot: robot.to_owned(), trajectory, ..Self::paper(scheme) }
+    }
+
     /// The paper's scenario for a scheme with its own gains.
     pub fn paper(scheme: SchemeDocument) -> Self {
         Self {

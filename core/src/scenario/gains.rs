@@ -1,9 +1,11 @@
 //! The gains of every scheme: name, default (the paper's section 4.2), allowed range and meaning, each stated once.
 //!
-//! The tables make the document's structs, the validation, the documentation for building a form, and the JSON Schema's
+//! Lists have as many numbers as the robot has joints or parameters; those of robots other than the A465 are in
+//! `robot_defaults`. //! The tables make the document's structs, the validation, the documentation for building a form, and the JSON Schema's
 //! defaults. Adding a gain is adding a line.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// How many numbers a gain has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -44,11 +46,54 @@ pub trait GainSet {
     fn table(&self) -> &'static [GainInfo];
     /// The numbers of each gain.
     fn values(&self) -> Vec<&[f64]>;
+    /// Gains of which nothing has been said: lists are blank.
+    fn left_out() -> Self
+    where
+        Self: Sized;
+    /// Puts other gains' lists in the place of blank ones.
+    fn fill(&mut self, from: Self)
+    where
+        Self: Sized;
 }
 
 macro_rules! field_type {
     (Scalar) => { f64 };
     ($many:ident) => { Vec<f64> };
+}
+
+/// A gain that somebody wrote. A list has a number, for one without would mean that it was left out.
+fn written<'de, D: Deserializer<'de>, G: Deserialize<'de> + Gain>(deserializer: D) -> Result<G, D::Error> {
+    let gain = G::deserialize(deserializer)?;
+    if gain.is_blank() { Err(D::Error::invalid_length(0, &"a number per joint or parameter")) } else { Ok(gain) }
+}
+
+/// A gain's numbers: one, or a list.
+trait Gain {
+    /// Whether there is none.
+    fn is_blank(&self) -> bool;
+    /// Takes them all away, if it can be without.
+    fn blank(&mut self);
+}
+
+impl Gain for f64 {
+    fn is_blank(&self) -> bool {
+        false
+    }
+    fn blank(&mut self) {}
+}
+
+impl Gain for Vec<f64> {
+    fn is_blank(&self) -> bool {
+        self.is_empty()
+    }
+    fn blank(&mut self) {
+        self.clear();
+    }
+}
+
+/// Gains of which nothing has been said: lists are blank until the robot is known, single numbers are the same for all.
+fn left_out<G: GainSet>() -> G {
+    G::left_out()
 }
 
 macro_rules! as_slice {
@@ -71,9 +116,10 @@ macro_rules! gain_set {
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         #[cfg_attr(feature = "schema", schemars(transform = super::schema::Gains($name::TABLE)))]
-        #[serde(deny_unknown_fields, default)]
+        #[cfg_attr(feature = "schema", schemars(default))]
+        #[serde(deny_unknown_fields, default = "left_out")]
         pub struct $name {
-            $(#[doc = $meaning] pub $field: field_type!($shape),)*
+            $(#[doc = $meaning] #[serde(deserialize_with = "written")] pub $field: field_type!($shape),)*
             $($(#[$sub_meta])* pub $sub: $sub_type,)?
         }
 
@@ -103,6 +149,16 @@ macro_rules! gain_set {
 
             fn values(&self) -> Vec<&[f64]> {
                 vec![$(as_slice!($shape, self.$field),)*]
+            }
+
+            fn left_out() -> Self {
+                let mut gains = Self::default();
+                $(gains.$field.blank();)*
+                gains
+            }
+
+            fn fill(&mut self, from: Self) {
+                $(if self.$field.is_blank() { self.$field = from.$field; })*
             }
         }
     };

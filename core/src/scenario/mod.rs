@@ -5,25 +5,29 @@
 
 mod beyond;
 mod build;
+mod build_trajectory;
 mod document;
 mod error;
 mod gains;
 mod presets;
 mod report;
+mod robot_defaults;
 #[cfg(feature = "schema")]
 mod schema;
 mod side_by_side;
+mod trajectory_document;
 mod tree;
 mod validate;
+mod validate_trajectory;
 
 pub use beyond::{
     AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
     StribeckDocument, VelocityDocument, VelocityKind,
 };
 pub use document::{
-    FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument, IntegrationDocument,
-    MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument,
-    TrajectoryKind,
+    ElbowDocument, FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument,
+    IntegrationDocument, MethodDocument, PlantDocument, RecordingDocument, ScenarioDocument, SchemeDocument,
+    TrajectoryDocument, TrajectoryKind,
 };
 pub use error::{Problem, ScenarioError, in_plain_words};
 pub use gains::{
@@ -38,7 +42,7 @@ pub use validate::{LIMITS, Limits};
 use crate::decomposition::TorqueParts;
 use crate::metrics::Metrics;
 use crate::recording::Recording;
-use crate::robots::{CrsA465, RobotData};
+use crate::robots::{RobotData, for_robot};
 use crate::simulation::{Settings, Simulation, Snapshot, SnapshotError, StateSpace};
 use serde::{Deserialize, Deserializer};
 use std::ops::ControlFlow;
@@ -195,7 +199,7 @@ impl Scenario {
         let (document, robot) = validate::resolve(document)?;
         let scenario = Self { document, robot };
         let theta = scenario.theta();
-        if theta != robot.theta() && !build::has_positive_inertia(&theta) {
+        if theta != robot.theta() && !build::has_positive_inertia(robot, &theta) {
             let message =
                 "gives an inertia matrix that is not positive definite everywhere: no such arm exists".to_owned();
             return Err(ScenarioError::new("/plant/theta_scale", Problem::Conflict { message }));
@@ -266,11 +270,13 @@ impl Scenario {
 
     /// The closed loop as a state space.
     pub fn closed_loop(&self) -> Box<dyn StateSpace<f64>> {
-        // The one robot so far; validation lets no other name through.
-        if beyond::is_beyond(&self.document) {
-            return beyond::build::closed_loop::<CrsA465, 3, 18>(&self.document);
-        }
-        build::closed_loop::<CrsA465, f64, 3, 18>(&[&self.document])
+        for_robot!(self.robot, R, N, P => {
+            if beyond::is_beyond(&self.document) {
+                beyond::build::closed_loop::<R, N, P>(&self.document)
+            } else {
+                build::closed_loop::<R, f64, N, P>(&[&self.document])
+            }
+        })
     }
 
     /// A run at its start.

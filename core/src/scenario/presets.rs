@@ -1,6 +1,7 @@
-//! Scenarios with a name: the paper's three schemes and the variations that the reference data cover.
+//! Scenarios with a name: the paper's three schemes, the variations that the reference data cover, and other robots.
 
 use super::document::{InitialVelocityDocument, ScenarioDocument, SchemeDocument};
+use super::gains::SlotineLiGains;
 
 /// A named scenario.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
@@ -73,6 +74,34 @@ pub const PRESETS: &[Preset] = &[
             document.plant.theta_scale = Some(scale);
             document
         },
+    },
+    Preset {
+        id: "two_link_textbook",
+        title: "Two-link arm of the textbook",
+        description: "Slotine and Li's book, section 9.2: their arm, horizontal and without friction, their gains, from rest.",
+        document: || {
+            let mut gamma_adapt = vec![0.03, 0.05, 0.1, 0.3];
+            gamma_adapt.resize(11, 0.0);
+            let gains = SlotineLiGains { k_s: vec![100.0; 2], lambda: vec![20.0; 2], gamma_adapt };
+            let mut document = ScenarioDocument::of_robot("two_link", SchemeDocument::SlotineLi(Some(gains)));
+            let mut scale = vec![1.0; 4];
+            scale.resize(11, 0.0);
+            document.plant.theta_scale = Some(scale);
+            document.integration.duration_s = 3.0;
+            document
+        },
+    },
+    Preset {
+        id: "two_link_proposed",
+        title: "Two-link arm, proposed scheme",
+        description: "A planar arm with gravity and friction under the paper's controller, without velocity sensor.",
+        document: || ScenarioDocument::of_robot("two_link", SchemeDocument::Proposed(None)),
+    },
+    Preset {
+        id: "pendulum_slotine_li",
+        title: "Pendulum, Slotine and Li",
+        description: "One joint and four parameters, for first lessons.",
+        document: || ScenarioDocument::of_robot("pendulum", SchemeDocument::SlotineLi(None)),
     },
 ];
 

@@ -1,14 +1,12 @@
 //! The JSON Schema of a scenario says all that `validate` demands of one field: ranges, lengths, and which fields belong to
-//! which kind. What holds between fields (steps in all, the projection's two bounds, positive inertia) it cannot say.
+//! which kind. Parts allow what some robot allows; the whole says which lengths belong to which robot. What holds between fields (steps in all, the projection's two bounds, positive inertia) it cannot say.
 
-use super::document::FORMAT;
+use super::document::{FORMAT, TrajectoryDocument, TrajectoryKind};
 use super::gains::{GainInfo, GainShape};
 use super::validate::LIMITS;
-use crate::robots::{CrsA465, ROBOTS, Robot, RobotData};
+use super::validate_trajectory::{fields, needed};
+use crate::robots::{ROBOTS, RobotData, RobotKind};
 use schemars::{Schema, json_schema, transform::Transform};
-
-/// The only robot there is; with a second one, lengths will depend on which is named.
-pub(super) const ROBOT: &RobotData = <CrsA465 as Robot<3, 18>>::DATA;
 
 /// Adds keywords to the part of a schema at a JSON pointer.
 pub(super) fn refine(schema: &mut Schema, pointer: &str, keywords: &Schema) {
@@ -23,14 +21,21 @@ pub(super) fn range([min, max]: [f64; 2]) -> Schema {
     json_schema!({ "minimum": min, "maximum": max })
 }
 
-/// A list with one number per joint or parameter.
-pub(super) fn list(length: usize, limits: [f64; 2]) -> Schema {
-    let [minimum, maximum] = limits;
-    json_schema!({
-        "items": { "type": "number", "format": "double", "minimum": minimum, "maximum": maximum },
-        "minItems": length,
-        "maxItems": length,
-    })
+/// A number within limits.
+fn number([minimum, maximum]: [f64; 2]) -> Schema {
+    json_schema!({ "type": "number", "format": "double", "minimum": minimum, "maximum": maximum })
+}
+
+/// A list with one number per joint or parameter, as `count` tells, of any robot.
+pub(super) fn list(count: fn(&RobotData) -> usize, limits: [f64; 2]) -> Schema {
+    let (fewest, most) = of_all_robots(count);
+    json_schema!({ "items": number(limits), "minItems": fewest, "maxItems": most })
+}
+
+/// Fewest and most over all robots.
+fn of_all_robots(count: fn(&RobotData) -> usize) -> (usize, usize) {
+    let counts = || ROBOTS.iter().map(|robot| count(robot));
+    (counts().min().unwrap_or_default(), counts().max().unwrap_or_default())
 }
 
 /// Of the whole document.
@@ -39,17 +44,56 @@ pub(super) fn scenario(schema: &mut Schema) {
     let robots: Vec<_> = ROBOTS.iter().map(|robot| robot.id).collect();
     refine(schema, "/properties/robot", &json_schema!({ "enum": robots }));
     refine(schema, "/properties/seed", &json_schema!({ "maximum": u64::MAX }));
+    let lengths: Vec<_> = ROBOTS.iter().map(|robot| of_robot(robot)).collect();
+    refine(schema, "", &json_schema!({ "allOf": lengths }));
+}
+
+/// What one robot asks for where a document names it, or names none and means it.
+fn of_robot(robot: &RobotData) -> Schema {
+    let named = json_schema!({ "properties": { "robot": { "const": robot.id } } });
+    let named = if robot.id == super::document::default_robot() {
+        named
+    } else {
+        json_schema!({ "allOf": [named, { "required": ["robot"] }] })
+    };
+    let exactly = |count: usize| json_schema!({ "minItems": count, "maxItems": count });
+    let (joints, parameters) = (robot.joint_count(), robot.parameter_count());
+    let mut factors = exactly(parameters);
+    let limits = |inertial| if inertial { LIMITS.inertial_scale } else { LIMITS.other_scale };
+    let each: Vec<_> = robot.parameters.iter().map(|parameter| number(limits(parameter.inertial))).collect();
+    factors.insert("prefixItems".to_owned(), each.into());
+    let mut gains = json_schema!({});
+    for gain in super::Scheme::ALL.iter().flat_map(|scheme| scheme.gains()) {
+        match gain.shape {
+            GainShape::Scalar => None,
+            GainShape::Joint => gains.insert(gain.name.to_owned(), exactly(joints).into()),
+            GainShape::Parameter => gains.insert(gain.name.to_owned(), exactly(parameters).into()),
+        };
+    }
+    let is_the_papers = robot.kind == RobotKind::CrsA465;
+    let kinds: Vec<_> = TrajectoryKind::ALL
+        .into_iter()
+        .filter(|kind| is_the_papers || *kind != TrajectoryKind::Paper)
+        .map(TrajectoryKind::id)
+        .collect();
+    let amplitudes = json_schema!({ "maxItems": joints });
+    json_schema!({ "if": named, "then": { "properties": {
+        "plant": { "properties": { "theta_scale": factors } },
+        "scheme": { "properties": { "gains": { "properties": gains } } },
+        "trajectory": { "properties": {
+            "kind": { "enum": kinds },
+            "offset_deg": exactly(joints),
+            "sine_deg": amplitudes,
+            "cosine_deg": amplitudes,
+            "amplitude_deg": exactly(joints),
+            "points_deg": { "items": exactly(joints) },
+        } },
+    } } })
 }
 
 /// Of the simulated arm.
 pub(super) fn plant(schema: &mut Schema) {
-    let factors = ROBOT.parameters.iter().map(|parameter| {
-        let [minimum, maximum] = if parameter.inertial { LIMITS.inertial_scale } else { LIMITS.other_scale };
-        json_schema!({ "type": "number", "format": "double", "minimum": minimum, "maximum": maximum })
-    });
-    let factors: Vec<_> = factors.collect();
-    refine(schema, "/properties/theta_scale", &list(ROBOT.parameter_count(), LIMITS.other_scale));
-    refine(schema, "/properties/theta_scale", &json_schema!({ "prefixItems": factors }));
+    refine(schema, "/properties/theta_scale", &list(RobotData::parameter_count, LIMITS.other_scale));
 }
 
 /// Of friction's sign.
@@ -60,34 +104,61 @@ pub(super) fn friction(schema: &mut Schema) {
 
 /// Of the desired trajectory: an alternative for each kind.
 pub(super) fn trajectory(schema: &mut Schema) {
-    let joints = ROBOT.joint_count();
-    let [lowest, highest] = LIMITS.angle_deg;
+    let (_, joints) = of_all_robots(RobotData::joint_count);
     refine(schema, "/properties/frequency_rad_s", &range(LIMITS.frequency_rad_s));
-    refine(schema, "/properties/offset_deg", &list(joints, LIMITS.angle_deg));
+    refine(schema, "/properties/offset_deg", &list(RobotData::joint_count, LIMITS.angle_deg));
     for name in ["sine_deg", "cosine_deg"] {
         let amplitudes = json_schema!({
             "maxItems": joints,
             "items": {
                 "type": "array",
                 "maxItems": LIMITS.harmonics,
-                "items": { "type": "number", "format": "double", "minimum": lowest, "maximum": highest },
+                "items": number(LIMITS.angle_deg),
             },
         });
         refine(schema, &format!("/properties/{name}"), &amplitudes);
     }
-    let nothing = json_schema!({ "type": "null" });
-    let paper = json_schema!({ "properties": {
-        "kind": { "const": "paper" },
-        "frequency_rad_s": nothing,
-        "offset_deg": nothing,
-        "sine_deg": nothing,
-        "cosine_deg": nothing,
-    } });
-    let fourier = json_schema!({
-        "properties": { "kind": { "const": "fourier" }, "offset_deg": { "type": "array" } },
-        "required": ["offset_deg"],
+    refine(schema, "/properties/harmonics", &json_schema!({ "minimum": 1, "maximum": LIMITS.harmonics }));
+    refine(schema, "/properties/amplitude_deg", &list(RobotData::joint_count, LIMITS.angle_deg));
+    let (fewest, _) = of_all_robots(RobotData::joint_count);
+    let row = json_schema!({
+        "type": "array", "minItems": fewest, "maxItems": joints, "items": number(LIMITS.angle_deg),
     });
-    refine(schema, "", &json_schema!({ "oneOf": [paper, fourier] }));
+    refine(schema, "/properties/points_deg", &json_schema!({ "minItems": 1, "maxItems": LIMITS.points, "items": row }));
+    let latest = [0.0, LIMITS.duration_s[1]];
+    let times = json_schema!({ "minItems": 2, "maxItems": LIMITS.points, "items": number(latest) });
+    refine(schema, "/properties/times_s", &times);
+    for name in ["from_m", "to_m", "centre_m", "normal"] {
+        let point = json_schema!({ "minItems": 3, "maxItems": 3, "items": number(LIMITS.coordinate_m) });
+        refine(schema, &format!("/properties/{name}"), &point);
+    }
+    for (name, limits) in [
+        ("rms_deg_s", LIMITS.rms_deg_s),
+        ("frequency_end_rad_s", LIMITS.frequency_rad_s),
+        ("sweep_s", LIMITS.move_s),
+        ("move_s", LIMITS.move_s),
+        ("dwell_s", [0.0, LIMITS.move_s[1]]),
+        ("radius_m", LIMITS.radius_m),
+        ("period_s", LIMITS.move_s),
+    ] {
+        refine(schema, &format!("/properties/{name}"), &range(limits));
+    }
+    let kinds: Vec<_> = TrajectoryKind::ALL.into_iter().map(of_kind).collect();
+    refine(schema, "", &json_schema!({ "oneOf": kinds }));
+}
+
+/// One kind of trajectory: it needs some fields and has nothing in those of other kinds.
+fn of_kind(kind: TrajectoryKind) -> Schema {
+    let needed = needed(kind);
+    let mut properties = json_schema!({ "kind": { "const": kind.id() } });
+    for (name, _) in TrajectoryDocument::default().given() {
+        if !fields(kind).contains(&name) {
+            properties.insert(name.to_owned(), json_schema!({ "type": "null" }).into());
+        } else if needed.contains(&name) {
+            properties.insert(name.to_owned(), json_schema!({ "not": { "type": "null" } }).into());
+        }
+    }
+    json_schema!({ "properties": properties, "required": needed })
 }
 
 /// Of the scheme: gains may be left out.
@@ -106,8 +177,8 @@ impl Transform for Gains {
             let limits = [gain.min, gain.max];
             let keywords = match gain.shape {
                 GainShape::Scalar => range(limits),
-                GainShape::Joint => list(ROBOT.joint_count(), limits),
-                GainShape::Parameter => list(ROBOT.parameter_count(), limits),
+                GainShape::Joint => list(RobotData::joint_count, limits),
+                GainShape::Parameter => list(RobotData::parameter_count, limits),
             };
             refine(schema, &format!("/properties/{}", gain.name), &keywords);
         }

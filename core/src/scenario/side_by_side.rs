@@ -2,9 +2,9 @@
 //!
 //! Each gets the bits that it has alone; what cannot share lanes runs by itself.
 
-use super::{Run, Scenario, beyond, build};
+use super::{Run, Scenario, beyond, build, build_trajectory};
 use crate::lanes::{self, WithLanes};
-use crate::robots::CrsA465;
+use crate::robots::for_robot;
 use crate::scalar::Scalar;
 use crate::simulation::{Lanes, Lockstep};
 use std::ops::ControlFlow;
@@ -24,8 +24,8 @@ impl WithLanes for Start<'_, '_> {
     fn with<T: Scalar>(self) -> Self::Output {
         let documents: Vec<_> = self.0.iter().map(|scenario| &scenario.document).collect();
         let identities = self.0.iter().map(|scenario| scenario.hash()).collect();
-        // The one robot so far; validation lets no other name through.
-        let system = build::closed_loop::<CrsA465, T, 3, 18>(&documents);
+        let robot = self.0[0].robot;
+        let system = for_robot!(robot, R, N, P => build::closed_loop::<R, T, N, P>(&documents));
         Some(Box::new(Lanes::new(identities, system, self.0[0].settings())?))
     }
 }
@@ -44,7 +44,7 @@ impl Scenario {
             && settings.steps_on_grid().is_some()
             && a.initial.velocity == b.initial.velocity
             && build::is_true_sign(a) == build::is_true_sign(b)
-            && build::fourier::<3>(&a.trajectory).runs_beside(&build::fourier(&b.trajectory))
+            && build_trajectory::run_beside(self.robot, a, b)
     }
 }
 

@@ -1,9 +1,11 @@
 //! What a scenario may say. Checks a document once and fills in everything it left out.
 
 use super::beyond;
-use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind};
+use super::document::{FORMAT, MethodDocument, ScenarioDocument, SchemeDocument};
 use super::error::{Problem, ScenarioError};
 use super::gains::{GainSet, GainShape};
+use super::robot_defaults::RobotGains;
+use super::validate_trajectory::resolve_trajectory;
 use crate::robots::{ROBOTS, RobotData, robot};
 
 /// Limits on what a scenario can ask for. All are inclusive.
@@ -30,6 +32,16 @@ pub struct Limits {
     pub angle_deg: [f64; 2],
     /// Most harmonics of a Fourier trajectory.
     pub harmonics: usize,
+    /// Root mean square velocity of a random Fourier trajectory, deg/s.
+    pub rms_deg_s: [f64; 2],
+    /// Time of a move, a sweep or a round, s.
+    pub move_s: [f64; 2],
+    /// Most points or samples of a trajectory.
+    pub points: usize,
+    /// Coordinate of a point in space, m.
+    pub coordinate_m: [f64; 2],
+    /// Radius of a circle, m.
+    pub radius_m: [f64; 2],
     /// Tolerances of an adaptive method.
     pub tolerance: [f64; 2],
 }
@@ -46,6 +58,11 @@ pub const LIMITS: Limits = Limits {
     frequency_rad_s: [1e-3, 100.0],
     angle_deg: [-3600.0, 3600.0],
     harmonics: 50,
+    rms_deg_s: [1e-3, 1e4],
+    move_s: [1e-3, 1e5],
+    points: 10_000,
+    coordinate_m: [-10.0, 10.0],
+    radius_m: [1e-4, 10.0],
     tolerance: [1e-14, 1e-2],
 };
 
@@ -53,6 +70,7 @@ pub const LIMITS: Limits = Limits {
 const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-10;
 const DEFAULT_ABSOLUTE_TOLERANCE: f64 = 1e-12;
 
+/// What a check gives.
 pub(super) type Check = Result<(), ScenarioError>;
 
 /// Checks a document and fills in what it left out.
@@ -94,61 +112,10 @@ fn resolve_plant(document: &mut ScenarioDocument, robot: &RobotData) -> Check {
     Ok(())
 }
 
-fn resolve_trajectory(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
-    match trajectory.kind {
-        TrajectoryKind::Paper => {
-            let TrajectoryDocument { kind: _, frequency_rad_s, offset_deg, sine_deg, cosine_deg } = trajectory;
-            for (name, given) in [
-                ("frequency_rad_s", frequency_rad_s.is_some()),
-                ("offset_deg", offset_deg.is_some()),
-                ("sine_deg", sine_deg.is_some()),
-                ("cosine_deg", cosine_deg.is_some()),
-            ] {
-                if given {
-                    let message = "has no meaning for kind paper, which is fixed; use kind fourier".to_owned();
-                    return Err(ScenarioError::new(format!("/trajectory/{name}"), Problem::Conflict { message }));
-                }
-            }
-            Ok(())
-        }
-        TrajectoryKind::Fourier => resolve_fourier(trajectory, robot),
-    }
-}
-
-fn resolve_fourier(trajectory: &mut TrajectoryDocument, robot: &RobotData) -> Check {
-    let joints = robot.joint_count();
-    let frequency_rad_s = *trajectory.frequency_rad_s.get_or_insert(1.0);
-    range("/trajectory/frequency_rad_s", frequency_rad_s, LIMITS.frequency_rad_s, "rad/s")?;
-    let Some(offset_deg) = &trajectory.offset_deg else {
-        let message = "missing; a trajectory of kind fourier needs one angle per joint of the robot".to_owned();
-        return Err(ScenarioError::new("/trajectory/offset_deg", Problem::Conflict { message }));
-    };
-    length("/trajectory/offset_deg", offset_deg.len(), joints, "one per joint of the robot")?;
-    angles("/trajectory/offset_deg", offset_deg)?;
-    for (name, rows) in [("sine_deg", &mut trajectory.sine_deg), ("cosine_deg", &mut trajectory.cosine_deg)] {
-        let pointer = format!("/trajectory/{name}");
-        let rows = rows.get_or_insert_default();
-        at_most(&pointer, rows.len(), joints, "lists: one per joint of the robot")?;
-        for (joint, row) in rows.iter().enumerate() {
-            let pointer = format!("{pointer}/{joint}");
-            at_most(&pointer, row.len(), LIMITS.harmonics, "numbers: one per harmonic")?;
-            angles(&pointer, row)?;
-        }
-    }
-    Ok(())
-}
-
-fn angles(pointer: &str, degrees: &[f64]) -> Check {
-    degrees
-        .iter()
-        .enumerate()
-        .try_for_each(|(n, angle)| range(&format!("{pointer}/{n}"), *angle, LIMITS.angle_deg, "deg"))
-}
-
 fn resolve_scheme(scheme: &mut SchemeDocument, robot: &RobotData) -> Check {
     match scheme {
         SchemeDocument::Proposed(gains) => {
-            let gains = gains.get_or_insert_default();
+            let gains = RobotGains::given(gains, robot);
             check_gains("/scheme/gains", gains, robot)?;
             let bounds = &gains.projection;
             check_gains("/scheme/gains/projection", bounds, robot)?;
@@ -159,11 +126,11 @@ fn resolve_scheme(scheme: &mut SchemeDocument, robot: &RobotData) -> Check {
             }
             Ok(())
         }
-        SchemeDocument::TangArteaga(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
-        SchemeDocument::SlotineLi(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
-        SchemeDocument::Pd(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
-        SchemeDocument::PdGravity(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
-        SchemeDocument::ComputedTorque(gains) => check_gains("/scheme/gains", gains.get_or_insert_default(), robot),
+        SchemeDocument::TangArteaga(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
+        SchemeDocument::SlotineLi(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
+        SchemeDocument::Pd(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
+        SchemeDocument::PdGravity(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
+        SchemeDocument::ComputedTorque(gains) => check_gains("/scheme/gains", RobotGains::given(gains, robot), robot),
     }
 }
 

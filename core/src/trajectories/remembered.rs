@@ -1,19 +1,19 @@
 //! A trajectory that remembers its last instant: integrators ask for each stage time several times in a row.
 
-use super::{Desired, Fourier};
+use super::{Desired, Trajectory};
 use crate::scalar::Scalar;
 use std::cell::Cell;
 
 /// A trajectory with the motion at the last instant asked for.
 #[derive(Debug, Clone)]
 pub struct Remembered<T: Scalar, const N: usize> {
-    trajectory: Fourier<T, N>,
+    trajectory: Trajectory<T, N>,
     last: Cell<(f64, Desired<T, N>)>,
 }
 
 impl<T: Scalar, const N: usize> Remembered<T, N> {
     /// Remembers the start.
-    pub fn new(trajectory: Fourier<T, N>) -> Self {
+    pub fn new(trajectory: Trajectory<T, N>) -> Self {
         let start = trajectory.at(0.0);
         Self { trajectory, last: Cell::new((0.0, start)) }
     }

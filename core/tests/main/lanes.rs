@@ -32,15 +32,14 @@ fn varied(scheme: Scheme, n: usize) -> Scenario {
         offset_deg: Some(vec![factor, 90.0, -90.0]),
         sine_deg: Some(vec![vec![5.0 * factor], vec![7.0, 1.0], vec![3.0]]),
         cosine_deg: Some(vec![vec![factor], vec![], vec![]]),
+        ..TrajectoryDocument::default()
     };
     let scale = |gains: &mut [f64]| gains.iter_mut().for_each(|gain| *gain *= factor);
     match &mut document.scheme {
         SchemeDocument::Proposed(Some(gains)) => {
-            scale(&mut gains.k_v);
-            scale(&mut gains.lambda);
-            scale(&mut gains.lambda_z);
-            scale(&mut gains.lambda_x);
-            scale(&mut gains.k_d);
+            for gains in [&mut gains.k_v, &mut gains.lambda, &mut gains.lambda_z, &mut gains.lambda_x, &mut gains.k_d] {
+                scale(gains);
+            }
             scale(&mut gains.gamma_adapt);
             gains.beta *= factor;
             gains.projection.lower_margin *= factor;

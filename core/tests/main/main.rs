@@ -11,3 +11,6 @@ mod laws;
 mod reference;
 mod replication;
 mod resumption;
+mod robots;
+mod trajectories;
+mod yardsticks_on_robots;

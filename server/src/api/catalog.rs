@@ -37,7 +37,7 @@ pub struct RobotView {
     joint_limit_rad: &'static [f64],
     joint_zero_rad: &'static [f64],
     effort_limit_nm: &'static [f64],
-    link_lengths_m: &'static [f64],
+    link_lengths_m: [f64; 4],
     torque_per_volt_nm: f64,
     supply_v: f64,
     parameters: Vec<ParameterView>,

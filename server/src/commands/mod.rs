@@ -7,6 +7,7 @@ mod openapi;
 mod options;
 mod presets;
 mod run;
+mod samples;
 mod serve;
 mod shutdown;
 mod token;

@@ -1,6 +1,6 @@
 //! `adaptarm run`: one scenario in, one report out.
 
-use super::{Failure, presets};
+use super::{Failure, presets, samples};
 use crate::document::{FileError, parse_scenario, read_bounded, read_file};
 use crate::stdout::print;
 use adaptarm_core::scenario::{Run, Scenario};
@@ -23,6 +23,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 Examples:
   adaptarm run --preset slotine_li
   adaptarm run my.json --csv my.csv --compact >> reports.jsonl
+  adaptarm run my.json --follow way.csv
   adaptarm presets --show proposed | sed 's/\"duration_s\": 12.0/\"duration_s\": 60.0/' | adaptarm run -
 
 A scenario may be as short as {\"format\": \"adaptarm.scenario/1\", \"scheme\": {\"kind\": \"proposed\"}}:
@@ -43,6 +44,10 @@ pub(super) struct Arguments {
     /// Run the preset of this name instead; `adaptarm presets` lists them.
     #[arg(long, value_name = "NAME", conflicts_with = "scenario")]
     preset: Option<String>,
+    /// Follow the joint angles of this table instead of the scenario's trajectory: lines of time (s) and one angle per
+    /// joint (deg), comma-separated. They become part of the scenario.
+    #[arg(long, value_name = "IN.csv")]
+    follow: Option<PathBuf>,
     /// Also write the samples to this file, as comma-separated values.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
@@ -64,6 +69,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             return Err(Failure::input(message));
         }
     };
+    let scenario = match &arguments.follow {
+        Some(path) => follow(&scenario, path)?,
+        None => scenario,
+    };
     let table = arguments.csv.as_deref().map(|path| Table::open(path, arguments.scenario.as_deref())).transpose()?;
     let Run { report, recording } = simulate(&scenario);
     if let Some(table) = table {
@@ -76,6 +85,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn read(path: &Path) -> Result<Scenario, Failure> {
     let (name, bytes) = read_input(path)?;
     parse_scenario(&bytes).map_err(|error| Failure::input(format!("{name}: {error}")))
+}
+
+/// The scenario along a table of joint angles.
+fn follow(scenario: &Scenario, path: &Path) -> Result<Scenario, Failure> {
+    let (name, bytes) = read_input(path)?;
+    let text = str::from_utf8(&bytes).map_err(|error| Failure::input(format!("{name}: {error}")))?;
+    let mut document = scenario.document().clone();
+    document.trajectory = samples::trajectory(text).map_err(|error| Failure::input(format!("{name}: {error}")))?;
+    Scenario::new(document).map_err(|error| Failure::input(format!("{name}: {error}")))
 }
 
 /// A document's name and bytes, from a file or, called -, from standard input.

@@ -69,11 +69,18 @@ async fn a_scenario_s_schema_knows_ranges_and_lengths() {
     let app = App::new().await;
     let schemas = app.get("/api/v1/openapi.json").await.json()["components"]["schemas"].take();
     let gains = &schemas["ProposedGains"]["properties"];
-    assert_eq!((&gains["k_v"]["minItems"], &gains["k_v"]["items"]["maximum"]), (&json!(3), &json!(1e5)));
+    assert_eq!((&gains["k_v"]["maxItems"], &gains["k_v"]["items"]["maximum"]), (&json!(3), &json!(1e5)));
+    assert_eq!(gains["k_v"]["default"], json!([40.0, 80.0, 75.0]));
     assert_eq!((&gains["gamma_adapt"]["maxItems"], &gains["rho"]["minimum"]), (&json!(18), &json!(1.0)));
     assert_eq!(schemas["IntegrationDocument"]["properties"]["step_s"]["maximum"], 0.1);
     assert_eq!(schemas["SchemeDocument"]["oneOf"][0]["required"], json!(["kind"]));
-    assert_eq!(app.get("/api/v1/schema/scenario").await.json()["properties"]["robot"]["enum"], json!(["crs_a465"]));
+    let schema = app.get("/api/v1/schema/scenario").await.json();
+    assert_eq!(schema["properties"]["robot"]["enum"], json!(["crs_a465", "two_link", "pendulum"]));
+    for (n, (joints, parameters)) in [(3, 18), (2, 11), (1, 4)].into_iter().enumerate() {
+        let of_robot = &schema["allOf"][n]["then"]["properties"];
+        assert_eq!(of_robot["scheme"]["properties"]["gains"]["properties"]["k_v"]["minItems"], joints);
+        assert_eq!(of_robot["plant"]["properties"]["theta_scale"]["maxItems"], parameters);
+    }
 }
 
 #[tokio::test]

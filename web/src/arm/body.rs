@@ -156,10 +156,10 @@ mod tests {
 
     #[test]
     fn links_reach_from_joint_to_joint_and_the_tip_is_marked() {
-        let arm = Kinematics::new(ROBOTS[0]).unwrap();
+        let arm = Kinematics::new(ROBOTS[0]);
         let (mesh, still) = solids(arm.lengths_m());
         assert!(mesh.indices[still..].iter().all(|&index| mesh.vertices[usize::from(index) * VERTEX + 6] > 0.0));
-        let points = arm.points([0.4, 1.2, -0.9]);
+        let points = arm.points(&[0.4, 1.2, -0.9]);
         let frames = frames(&points, 0.4);
         let [_, upper, fore, flange] = arm.lengths_m().map(|length| length as f32);
         for (part, local, expected) in [
@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_mesh_fits_sixteen_bit_indices_and_stands_on_the_floor() {
-        let (mesh, _) = solids(Kinematics::new(ROBOTS[0]).unwrap().lengths_m());
+        let (mesh, _) = solids(Kinematics::new(ROBOTS[0]).lengths_m());
         assert!(mesh.vertices.len() / VERTEX < usize::from(u16::MAX));
         let triangles = mesh.indices.len() / 3;
         assert!(triangles < 7000, "{triangles} triangles: too many where a processor has to draw them");

@@ -9,22 +9,23 @@ use adaptarm_core::robots::{ArmPoints, Kinematics, distance_m};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// An arm and where it should be.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pose {
     /// Joint angles as drawn, rad.
-    pub q: [f64; 3],
+    pub q: Vec<f64>,
     /// Desired joint angles, rad.
-    pub q_d: [f64; 3],
+    pub q_d: Vec<f64>,
     /// Points as drawn, m.
     pub actual: ArmPoints,
     /// Desired points, m.
     pub desired: ArmPoints,
 }
 
-/// A run read as motion; `None` for a robot that cannot be drawn and for a run without samples.
+/// A run read as motion; `None` for a run without samples.
 pub(crate) struct Motion<'a> {
     pub kinematics: Kinematics,
     rows: &'a [f64],
+    joints: usize,
     width: usize,
     error: usize,
     position: usize,
@@ -33,10 +34,11 @@ pub(crate) struct Motion<'a> {
 impl<'a> Motion<'a> {
     pub fn new(run: &'a ShownRun) -> Option<Self> {
         let columns = run.recording.columns();
-        let kinematics = Kinematics::new(run.scenario.robot()).filter(|_| columns.joints == 3)?;
+        let kinematics = Kinematics::new(run.scenario.robot());
         (!run.recording.is_empty()).then(|| Self {
             kinematics,
             rows: run.recording.rows(),
+            joints: columns.joints,
             width: columns.width(),
             error: columns.start(Signal::Error),
             position: columns.start(Signal::Position),
@@ -77,10 +79,10 @@ impl<'a> Motion<'a> {
             let value = |sample: usize| self.rows[sample * self.width + column];
             value(low) + share * (value(high) - value(low))
         };
-        let e = [0, 1, 2].map(|joint| mix(self.error + joint));
-        let q_d = [0, 1, 2].map(|joint| mix(self.position + joint) - e[joint]);
-        let q = [0, 1, 2].map(|joint| q_d[joint] + exaggeration * e[joint]);
-        Pose { q, q_d, actual: self.kinematics.points(q), desired: self.kinematics.points(q_d) }
+        let e: Vec<_> = (0..self.joints).map(|joint| mix(self.error + joint)).collect();
+        let q_d: Vec<_> = (0..self.joints).map(|joint| mix(self.position + joint) - e[joint]).collect();
+        let q: Vec<_> = (0..self.joints).map(|joint| q_d[joint] + exaggeration * e[joint]).collect();
+        Pose { actual: self.kinematics.points(&q), desired: self.kinematics.points(&q_d), q, q_d }
     }
 
     /// Samples to draw a path of at most `most` points with: every n-th and the last.
@@ -100,7 +102,7 @@ pub fn arm_pose(runs: &Runs, id: &str, time_s: f64, exaggeration: f64) -> Option
     let (drawn, real) = (motion.at(time_s, exaggeration), motion.at(time_s, 1.0));
     let mut numbers: Vec<f64> = drawn.actual.all().into_iter().chain(drawn.desired.all()).flatten().collect();
     numbers.push(distance_m(real.actual.tip, real.desired.tip));
-    numbers.push(f64::from(motion.kinematics.beyond_limits(real.q).next().is_some()));
+    numbers.push(f64::from(motion.kinematics.beyond_limits(&real.q).next().is_some()));
     Some(numbers)
 }
 

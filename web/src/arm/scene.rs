@@ -11,7 +11,7 @@ use super::shaders;
 use super::view::View;
 use crate::runs::{Runs, ShownRun};
 use adaptarm_core::figures::{Rgb, Theme, scheme_style};
-use adaptarm_core::robots::{Kinematics, Point, ROBOTS};
+use adaptarm_core::robots::{ArmPoints, Kinematics, Point, ROBOTS, RobotKind};
 use std::collections::BTreeMap;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlSync};
 
@@ -35,6 +35,8 @@ pub(super) struct Scene {
     line: Program,
     body: Triangles,
     axes: Lines,
+    /// The links of a robot that has no solids.
+    links: Lines,
     paths: BTreeMap<String, Path>,
     reach: f32,
     /// Behind everything that has been asked of the graphics card.
@@ -70,13 +72,14 @@ enum Shown {
 impl Scene {
     pub fn new(canvas: &HtmlCanvasElement) -> Result<Self, Failed> {
         let (gl, is_slow) = context(canvas)?;
-        let arm = Kinematics::new(ROBOTS[0]).ok_or("this robot cannot be drawn")?;
+        let arm = Kinematics::new(ROBOTS[0]);
         Ok(Self {
             solid: Program::new(&gl, shaders::SOLID_VERTEX, shaders::SOLID_FRAGMENT)?,
             floor: Program::new(&gl, shaders::FLOOR_VERTEX, shaders::FLOOR_FRAGMENT)?,
             line: Program::new(&gl, shaders::LINE_VERTEX, shaders::LINE_FRAGMENT)?,
             body: Triangles::new(&gl, &solids(arm.lengths_m()))?,
             axes: Lines::new(&gl, &[])?,
+            links: Lines::new(&gl, &[])?,
             paths: BTreeMap::new(),
             reach: arm.lengths_m()[1..].iter().sum::<f64>() as f32,
             fence: None,
@@ -163,10 +166,33 @@ impl Scene {
         self.update_path(id, run, &motion, cell.view.exaggeration)?;
         let pose = motion.at(cell.view.time_s, cell.view.exaggeration);
         let paint = color(scheme_style(run.scenario.scheme(), cell.theme).0);
-        self.draw_arm(cell, &pose, paint);
-        self.draw_paths(cell, &self.paths[id], paint);
-        self.draw_ghost(cell, &pose);
+        if run.scenario.robot().kind == RobotKind::CrsA465 {
+            self.draw_arm(cell, &pose, paint);
+            self.draw_paths(cell, &self.paths[id], paint);
+            self.draw_ghost(cell, &pose);
+        } else {
+            let shrink = self.shrink(&motion);
+            self.draw_links(cell, &pose.desired, shrink, 2.0, color(cell.theme.ink()));
+            self.draw_links(cell, &pose.actual, shrink, 5.0, paint);
+            self.draw_paths(cell, &self.paths[id], paint);
+        }
         Ok(())
+    }
+
+    /// How much smaller than it is a robot is drawn, so that it reaches no further than the one with solids.
+    fn shrink(&self, motion: &Motion<'_>) -> f32 {
+        let reach: f64 = motion.kinematics.lengths_m()[1..].iter().sum();
+        (self.reach / reach as f32).min(1.0)
+    }
+
+    /// Links as lines from joint to joint.
+    fn draw_links(&mut self, cell: &Cell<'_>, points: &ArmPoints, shrink: f32, width: f32, ink: Vec3) {
+        let points = points.all().map(|[x, y, z]| [shrink * x as f32, shrink * y as f32, shrink * z as f32, 0.0]);
+        self.links.replace(&self.gl, &[points.to_vec()]);
+        self.prepare_lines(cell, width, ALWAYS);
+        self.line.number(&self.gl, "u_behind", 0.95);
+        self.line.vectors(&self.gl, "u_ink", &[ink]);
+        self.links.draw(&self.gl);
     }
 
     fn update_path(&mut self, id: &str, run: &ShownRun, motion: &Motion<'_>, exaggeration: f64) -> Result<(), Failed> {
@@ -175,9 +201,13 @@ impl Scene {
             return Ok(());
         }
         let (mut actual, mut desired) = (Vec::with_capacity(PATH_POINTS), Vec::with_capacity(PATH_POINTS));
+        let shrink = self.shrink(motion);
         for sample in motion.path_samples(PATH_POINTS) {
             let pose = motion.at_sample(sample, exaggeration);
-            let point = |[x, y, z]: Point| [x as f32, y as f32, z as f32, motion.time_s(sample) as f32];
+            let point = |point: Point| {
+                let [x, y, z] = point.map(|coordinate| shrink * coordinate as f32);
+                [x, y, z, motion.time_s(sample) as f32]
+            };
             actual.push(point(pose.actual.tip));
             desired.push(point(pose.desired.tip));
         }

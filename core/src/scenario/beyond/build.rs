@@ -7,6 +7,7 @@ use crate::dynamics::Plant;
 use crate::effects::{Actuator, Disturbance, Load, Payload, SampledControl, Sensing, Stribeck};
 use crate::robots::{Robot, payload_parameters};
 use crate::scenario::build::{self, Lanes};
+use crate::scenario::build_trajectory::trajectory;
 use crate::scenario::document::{InitialVelocityDocument, ScenarioDocument, SchemeDocument};
 use crate::scenario::gains::ModelParameters;
 use crate::simulation::{Controller, ImperfectLoop, InitialVelocity, StateSpace};
@@ -26,7 +27,7 @@ pub(in crate::scenario) fn closed_loop<R: Robot<N, P>, const N: usize, const P: 
     Box::new(ImperfectLoop::<R, N, P> {
         controller: controller(document, effects, &plant),
         plant,
-        trajectory: Remembered::new(build::trajectory(&[document])),
+        trajectory: Remembered::new(trajectory::<R, f64, N, P>(&[document])),
         initial_velocity: match document.initial.velocity {
             InitialVelocityDocument::Desired => InitialVelocity::Desired,
             InitialVelocityDocument::Rest => InitialVelocity::Rest,
@@ -58,12 +59,12 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         SchemeDocument::SlotineLi(gains) => {
             let parts = build::slotine_li::<f64, N, P>(&Lanes(&[gains.clone().unwrap_or_default()]));
             let law = AnyAdaptation::Gradient(parts.1);
-            (measured(document), AnyFeedback::Sliding(parts.0), law, SVector::zeros())
+            (measured::<R, N, P>(document), AnyFeedback::Sliding(parts.0), law, SVector::zeros())
         }
         SchemeDocument::TangArteaga(gains) => {
             let parts = build::tang_arteaga::<R, f64, N, P>(&Lanes(&[gains.clone().unwrap_or_default()]));
             let law = AnyAdaptation::Composite(parts.1);
-            (measured(document), AnyFeedback::Sliding(parts.0), law, SVector::zeros())
+            (measured::<R, N, P>(document), AnyFeedback::Sliding(parts.0), law, SVector::zeros())
         }
         SchemeDocument::Proposed(gains) => {
             let parts = build::proposed::<R, f64, N, P>(&Lanes(&[gains.clone().unwrap_or_default()]));
@@ -73,7 +74,7 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         SchemeDocument::Pd(gains) => {
             let gains = gains.clone().unwrap_or_default();
             (
-                measured(document),
+                measured::<R, N, P>(document),
                 linear(&gains.k_p, &gains.k_d, LinearModel::Gravity),
                 AnyAdaptation::None,
                 SVector::zeros(),
@@ -82,12 +83,12 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         SchemeDocument::PdGravity(gains) => {
             let gains = gains.clone().unwrap_or_default();
             let law = linear(&gains.k_p, &gains.k_d, LinearModel::Gravity);
-            (measured(document), law, AnyAdaptation::None, parameters(&gains.parameters))
+            (measured::<R, N, P>(document), law, AnyAdaptation::None, parameters(&gains.parameters))
         }
         SchemeDocument::ComputedTorque(gains) => {
             let gains = gains.clone().unwrap_or_default();
             let law = linear(&gains.k_p, &gains.k_d, LinearModel::Inverse);
-            (measured(document), law, AnyAdaptation::None, parameters(&gains.parameters))
+            (measured::<R, N, P>(document), law, AnyAdaptation::None, parameters(&gains.parameters))
         }
     };
     if let Some(scale) = &effects.theta_hat_scale {
@@ -95,7 +96,10 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
     }
     let asked = document.adaptation.as_ref();
     Controller {
-        velocity_source: document.velocity.as_ref().map_or(velocity_source, |velocity| source(velocity, document)),
+        velocity_source: document
+            .velocity
+            .as_ref()
+            .map_or(velocity_source, |velocity| source::<R, N, P>(velocity, document)),
         feedback,
         adaptation: match asked {
             Some(asked) if asked.kind == AdaptationKind::LeastSquares => least_squares(asked, &document.scheme),
@@ -115,14 +119,17 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
     }
 }
 
-fn measured<const N: usize>(document: &ScenarioDocument) -> AnySource<f64, N> {
-    AnySource::Measured(build::measured(&[document]))
+fn measured<R: Robot<N, P>, const N: usize, const P: usize>(document: &ScenarioDocument) -> AnySource<f64, N> {
+    AnySource::Measured(build::measured::<R, f64, N, P>(&[document]))
 }
 
-fn source<const N: usize>(velocity: &VelocityDocument, document: &ScenarioDocument) -> AnySource<f64, N> {
+fn source<R: Robot<N, P>, const N: usize, const P: usize>(
+    velocity: &VelocityDocument,
+    document: &ScenarioDocument,
+) -> AnySource<f64, N> {
     let bandwidth = velocity.bandwidth_rad_s.unwrap_or_default();
     match velocity.kind {
-        VelocityKind::Measured => measured(document),
+        VelocityKind::Measured => measured::<R, N, P>(document),
         VelocityKind::FilteredDifference => AnySource::FilteredDifference(FilteredDifference { bandwidth }),
         VelocityKind::HighGain => AnySource::HighGain(HighGainObserver { bandwidth }),
         VelocityKind::Observer => AnySource::Observer(ModelFreeObserver {

@@ -1,7 +1,8 @@
 //! What the optional parts may say, as JSON Schema keywords; what holds between fields only `resolve` knows.
 
 use super::resolve::limits;
-use crate::scenario::schema::{ROBOT, list, range, refine};
+use crate::robots::RobotData;
+use crate::scenario::schema::{list, range, refine};
 use schemars::{Schema, json_schema};
 
 fn ranges(schema: &mut Schema, fields: &[(&str, [f64; 2])]) {
@@ -12,7 +13,7 @@ fn ranges(schema: &mut Schema, fields: &[(&str, [f64; 2])]) {
 
 fn per_joint(schema: &mut Schema, fields: &[(&str, [f64; 2])]) {
     for (name, limits) in fields {
-        refine(schema, &format!("/properties/{name}"), &list(ROBOT.joint_count(), *limits));
+        refine(schema, &format!("/properties/{name}"), &list(RobotData::joint_count, *limits));
     }
 }
 
@@ -102,7 +103,7 @@ pub(super) fn effects(schema: &mut Schema) {
         ],
     );
     per_joint(schema, &[("torque_limit_nm", limits::TORQUE_LIMIT_NM)]);
-    refine(schema, "/properties/theta_hat_scale", &list(ROBOT.parameter_count(), limits::THETA_HAT_SCALE));
+    refine(schema, "/properties/theta_hat_scale", &list(RobotData::parameter_count, limits::THETA_HAT_SCALE));
     refine(schema, "/properties/payloads", &json_schema!({ "maxItems": limits::PAYLOADS }));
 }
 
@@ -120,7 +121,8 @@ mod tests {
         assert_eq!(at("/$defs/SamplingDocument/properties/period_s/anyOf/0/const"), 0);
         assert_eq!(at("/$defs/VelocityDocument/anyOf/0/properties/k_d/type"), "null");
         assert_eq!(at("/$defs/AdaptationDocument/properties/gain_limit/minimum"), 1.0);
-        assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/minItems"), 3);
+        assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/minItems"), 1);
+        assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/maxItems"), 3);
         assert_eq!(at("/$defs/SchemeDocument/oneOf").as_array().map(Vec::len), Some(6));
     }
 }
