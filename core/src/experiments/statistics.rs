@@ -81,7 +81,11 @@ impl Share {
         let z = normal_quantile(0.5 + 0.5 * confidence);
         let center = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
         let half = z / (1.0 + z * z / n) * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
-        Self { count, of, share, interval: [(center - half).max(0.0), (center + half).min(1.0)] }
+        // Exact where rounding would leave a trace of nothing.
+        let low = if count == 0 { 0.0 } else { center - half };
+        let high = if count == of { 1.0 } else { center + half };
+        let interval = [low, high];
+        Self { count, of, share, interval }
     }
 }
 
@@ -128,6 +132,7 @@ mod tests {
 
     #[test]
     fn wilsons_interval_is_as_published() {
+        assert_eq!(Share::new(0, 10_000, 0.95).interval[0], 0.0);
         let none = Share::new(0, 10, 0.95);
         assert!(none.interval[0] == 0.0 && (none.interval[1] - 0.277_5).abs() < 1e-4, "{none:?}");
         let half = Share::new(5, 10, 0.95);
