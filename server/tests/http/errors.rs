@@ -137,7 +137,7 @@ async fn lists_names_and_contradictions() {
     assert_eq!(problem["pointer"], "/spec/scenarios/0/trajectory/sine_deg/0");
     assert_eq!((&problem["found"], &problem["most"]), (&json!(51), &json!(50)));
     let problem = with_field("", "robot", json!("puma")).await.problem(422, "/problems/unknown");
-    assert_eq!(problem["allowed"], "crs_a465");
+    assert_eq!(problem["allowed"], "crs_a465, two_link, pendulum");
     let many_steps = json!({ "step_s": 1e-6, "duration_s": 1e5 });
     let problem = with_field("", "integration", many_steps).await.problem(422, "/problems/conflict");
     assert_eq!(problem["pointer"], "/spec/scenarios/0/integration/step_s");
