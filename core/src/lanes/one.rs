@@ -51,7 +51,8 @@ impl Scalar for f64 {
             *pair = F64x2::from_array(*pair).tanh().to_array();
         }
         for x in rest {
-            *x = x.tanh();
+            // Named in full: a number's own method of this name is the platform's.
+            *x = Scalar::tanh(*x);
         }
     }
     #[inline(always)]
