@@ -171,7 +171,8 @@ self.addEventListener("message", (event) => {
 self.addEventListener("fetch", (event) => {
   const { request } = event;
   const scope = self.registration.scope;
-  if (request.method !== "GET" || !request.url.startsWith(scope) || request.url.startsWith(`${scope}api/`) || request.url === LIST) {
+  const dynamic = [`${scope}api/`, `${scope}lti/`].some((place) => request.url.startsWith(place));
+  if (request.method !== "GET" || !request.url.startsWith(scope) || dynamic || request.url === LIST) {
     return;
   }
   if (request.mode === "navigate") {

@@ -1,7 +1,6 @@
 //! One attempt at one call: what is sent, and what its outcome means for the queue.
 //!
-//! Only the answer's status counts. Redirects are not followed, because the place they lead to was never checked; a
-//! system's proxy is not used, because it would connect to places that are not checked here.
+//! Only the answer's status counts.
 
 use super::guard::{GuardedResolver, Policy, Refused};
 use super::retry::{asked_pause, pause_after};
@@ -146,20 +145,26 @@ impl Sender {
         if let Some(client) = self.client.get() {
             return Ok(client);
         }
-        install_crypto_provider();
-        let client = Client::builder()
-            .user_agent(concat!("adaptarm/", env!("CARGO_PKG_VERSION")))
-            .dns_resolver(GuardedResolver(Arc::clone(&self.policy)))
-            .redirect(redirect::Policy::none())
-            .no_proxy()
-            // Calls are rare; a connection kept for the next one would only go stale.
-            .pool_max_idle_per_host(0)
-            .connect_timeout(self.timing.connect)
-            .timeout(self.timing.total)
-            .build()
+        let client = guarded_client(&self.policy, self.timing)
             .map_err(|error| Failure::Passing { why: causes(&error), asked: None })?;
         Ok(self.client.get_or_init(|| client))
     }
+}
+
+/// A client that connects only where the policy lets it, and nowhere by way of others: neither by redirects, because the place
+/// they lead to was never checked, nor by the system's proxy.
+pub fn guarded_client(policy: &Arc<Policy>, timing: Timing) -> reqwest::Result<Client> {
+    install_crypto_provider();
+    Client::builder()
+        .user_agent(concat!("adaptarm/", env!("CARGO_PKG_VERSION")))
+        .dns_resolver(GuardedResolver(Arc::clone(policy)))
+        .redirect(redirect::Policy::none())
+        .no_proxy()
+        // Calls are rare; a connection kept for the next one would only go stale.
+        .pool_max_idle_per_host(0)
+        .connect_timeout(timing.connect)
+        .timeout(timing.total)
+        .build()
 }
 
 /// What an answer means.
@@ -208,7 +213,7 @@ impl Failure {
 }
 
 /// What led to an error, outermost first. The client's own words hold the address, which may hold a key: left out.
-fn causes(error: &reqwest::Error) -> String {
+pub fn causes(error: &reqwest::Error) -> String {
     let mut words = String::from(if error.is_connect() { "cannot connect" } else { "the call failed" });
     let mut cause = error.source();
     while let Some(error) = cause {

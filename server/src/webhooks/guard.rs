@@ -32,7 +32,7 @@ pub struct PolicyError {
 /// A host that may not be called. Does not name the address: what internal names lead to is nobody's business.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "{host} has no public address ({kind}); webhooks go to public addresses and to those that the server's settings allow"
+    "{host} has no public address ({kind}); only public addresses and those that the server's settings allow are called"
 )]
 pub struct Refused {
     /// The host, as the webhook's address names it.

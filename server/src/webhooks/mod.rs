@@ -16,8 +16,9 @@ pub mod worker;
 #[cfg(test)]
 mod tests;
 
-pub use delivery::{Delivery, Outcome, Sender, Timing};
+pub use delivery::{Delivery, Outcome, Sender, Timing, causes, guarded_client};
 pub use guard::{Policy, PolicyError, Refused};
+pub use retry::pause_after;
 pub use signature::{SignatureError, sign, verify};
 pub use target::{Secret, Webhook};
 pub use tls::install_crypto_provider;
