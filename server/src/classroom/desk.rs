@@ -58,7 +58,7 @@ impl Desk {
         let fresh = secrets::fresh().context("the system gives no random numbers")?;
         Ok(Self {
             secret: store.secret(SEEDS, &fresh).await?,
-            library: Library::shipped().context("the library of exercises")?,
+            library: library(config).context("classroom.exercises")?,
             store,
             public_url: config.classroom.public_url.clone(),
             passwords: FailureLimiter::new(rate(PASSWORDS_PER_MINUTE)),
@@ -128,6 +128,15 @@ impl Desk {
     /// Counts an attempt of this person.
     pub fn count_attempt(&self, person: Uuid) -> Result<(), Problem> {
         self.attempts.check(&person).map_err(problems::too_often)
+    }
+}
+
+/// The exercises that can be given out.
+fn library(config: &Config) -> anyhow::Result<Library> {
+    let library = Library::default();
+    match &config.classroom.exercises {
+        Some(folder) => library.with_folder(folder),
+        None => Ok(library),
     }
 }
 

@@ -50,6 +50,9 @@ impl Window {
     }
 }
 
+/// Most attempts that one student's work may hold where the teacher sets no limit.
+pub const MOST_ATTEMPTS: u32 = 1000;
+
 /// How many attempts a student has; as many as they like if there is no number.
 pub fn allowed(settings: &Settings, extension: Option<&Extension>) -> Option<u32> {
     settings.attempts.map(|attempts| attempts.saturating_add(extension.map_or(0, |extension| extension.attempts)))

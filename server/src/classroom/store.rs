@@ -103,7 +103,7 @@ pub enum Outcome {
         /// All of it.
         grade: String,
         /// The signed receipt.
-        receipt: String,
+        receipt: Option<String>,
     },
     /// Given back, for this reason.
     Returned(String),

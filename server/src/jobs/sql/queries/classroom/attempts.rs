@@ -1,14 +1,14 @@
 //! Attempts. One transaction looks whether the student may, counts, and writes the attempt with its job; a grade is written
 //! only where there is none.
 
-use super::super::{Connection, Pool, begin, now, submit, while_submitting};
+use super::super::change::wake;
+use super::super::{Connection, Db, Pool, begin, now, submit, while_submitting};
 use crate::classroom::marks;
 use crate::classroom::model::{Assignment, Attempt, AttemptState, Extension};
 use crate::classroom::rows::{AssignmentRow, AttemptRow, ExtensionRow, attempt_columns};
 use crate::classroom::store::{Handed, NewAttempt, Outcome, Papers, Ripe};
 use crate::config::Limits;
-use crate::jobs::sql::queries_shared::state;
-use crate::jobs::{StoreError, stored_time};
+use crate::jobs::{StoreError, stored_state, stored_time};
 use sqlx::{FromRow, Row};
 use uuid::Uuid;
 
@@ -35,9 +35,8 @@ pub(super) async fn hand_in(pool: &Pool, new: &NewAttempt, limits: &Limits) -> R
     .bind(new.student.to_string())
     .fetch_one(&mut *connection)
     .await?;
-    if let Some(allowed) = marks::allowed(&assignment.settings, extension.as_ref())
-        && used >= i64::from(allowed)
-    {
+    let allowed = marks::allowed(&assignment.settings, extension.as_ref()).unwrap_or(marks::MOST_ATTEMPTS);
+    if used >= i64::from(allowed) {
         return Ok(Handed::NoneLeft(allowed));
     }
     let (submitted, shards) = submit::attempt(connection, &new.job, limits).await?;
@@ -56,7 +55,7 @@ pub(super) async fn hand_in(pool: &Pool, new: &NewAttempt, limits: &Limits) -> R
     .bind(at)
     .fetch_one(&mut *connection)
     .await?;
-    super::super::change::wake(connection, shards).await?;
+    wake(connection, shards).await?;
     transaction.commit().await?;
     Ok(Handed::In(row.try_into()?))
 }
@@ -142,9 +141,10 @@ pub(super) async fn ripe(pool: &Pool, limit: i64) -> Result<Vec<Ripe>, StoreErro
     .bind(limit)
     .fetch_all(pool)
     .await?;
-    let ripe = |row| {
-        let ended: Option<String> = sqlx::Row::try_get(row, "job_state")?;
-        let job = ended.map(|ended| Ok::<_, StoreError>((state(&ended)?, row.try_get("job_reason")?))).transpose()?;
+    let ripe = |row: &<Db as sqlx::Database>::Row| {
+        let ended: Option<String> = row.try_get("job_state")?;
+        let reason: Option<String> = row.try_get("job_reason")?;
+        let job = ended.map(|ended| stored_state(&ended).map(|state| (state, reason))).transpose()?;
         Ok(Ripe { attempt: AttemptRow::from_row(row)?.try_into()?, job })
     };
     rows.iter().map(ripe).collect()
@@ -156,7 +156,7 @@ pub(super) async fn finish(pool: &Pool, attempt: Uuid, outcome: &Outcome) -> Res
     let at = now(&mut transaction).await?;
     let (state, reason, papers) = match outcome {
         Outcome::Graded { feedback, grade, receipt } => {
-            (AttemptState::Graded, None, [feedback, grade, receipt].map(Some))
+            (AttemptState::Graded, None, [Some(feedback), Some(grade), receipt.as_ref()])
         }
         Outcome::Returned(reason) => (AttemptState::Returned, Some(reason), [None; 3]),
     };

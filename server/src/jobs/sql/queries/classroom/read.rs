@@ -1,6 +1,6 @@
 //! Looking at classes and what was given to them.
 
-use super::super::Pool;
+use super::super::{Db, Pool};
 use crate::classroom::model::{Assignment, Class, Extension, Note, Override};
 use crate::classroom::rows::{AssignmentRow, ClassRow, ExtensionRow, NoteRow, OverrideRow};
 use crate::jobs::StoreError;
@@ -21,7 +21,7 @@ pub(super) async fn classes(pool: &Pool, teacher: Uuid) -> Result<Vec<(Class, i6
     .bind(teacher.to_string())
     .fetch_all(pool)
     .await?;
-    let class = |row| Ok((ClassRow::from_row(row)?.try_into()?, row.try_get("students")?));
+    let class = |row: &<Db as sqlx::Database>::Row| Ok((ClassRow::from_row(row)?.try_into()?, row.try_get("students")?));
     rows.iter().map(class).collect()
 }
 
