@@ -8,6 +8,7 @@
 pub mod api;
 pub mod assets;
 pub mod auth;
+pub mod classroom;
 pub mod commands;
 pub mod compression;
 pub mod config;
@@ -21,6 +22,7 @@ pub mod guard;
 pub mod jobs;
 pub mod laboratory;
 pub mod listener;
+pub mod lti;
 pub mod metrics;
 pub mod openapi;
 pub mod replicate;

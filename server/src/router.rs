@@ -3,7 +3,7 @@
 use crate::error::{Problem, render};
 use crate::routes;
 use crate::state::AppState;
-use crate::{assets, guard, metrics};
+use crate::{assets, guard, lti, metrics};
 use axum::Router;
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
@@ -36,7 +36,11 @@ pub fn build_app(state: AppState) -> Router {
         .layer(TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, state.config.server.request_timeout()))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(middleware::from_fn_with_state(state.clone(), check_host))
-        .layer(CsrfLayer::new().with_rejection_response(|_| cross_site()));
+        .layer(
+            CsrfLayer::new()
+                .with_insecure_bypass(|_, uri| lti::takes_posts_from_elsewhere(uri.path()))
+                .with_rejection_response(|_| cross_site()),
+        );
     Router::new()
         .merge(assets::router())
         .merge(routes::api())

@@ -1,11 +1,13 @@
 //! What every request can reach.
 
 use crate::auth::Gate;
+use crate::classroom::Desk;
 use crate::config::Config;
 use crate::events::Hub;
 use crate::guard::Hosts;
 use crate::jobs::{Engine, JobStore};
 use crate::laboratory::Laboratory;
+use crate::lti::Tool;
 use crate::results::Results;
 use crate::webhooks::Policy;
 use std::sync::Arc;
@@ -28,6 +30,10 @@ pub struct AppState {
     pub hosts: Hosts,
     /// Who may do what.
     pub gate: Arc<Gate>,
+    /// Classes.
+    pub desk: Arc<Desk>,
+    /// Learning platforms.
+    pub lti: Arc<Tool>,
     /// Where jobs are watched.
     pub hub: Hub,
     draining: Arc<AtomicBool>,
@@ -45,6 +51,8 @@ impl AppState {
             hosts,
             // Elsewhere than on this machine's own address, anyone may come.
             gate: Arc::new(Gate::new(laboratory.store.clone(), &config.auth, hosts == Hosts::Loopback)),
+            desk: laboratory.desk.clone(),
+            lti: laboratory.lti.clone(),
             hub: Hub::new(laboratory.store.clone()),
             draining: Arc::default(),
         }

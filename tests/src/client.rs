@@ -65,8 +65,18 @@ impl std::fmt::Display for Answer {
 impl Client {
     /// A client without credentials.
     pub fn new(url: &str) -> Self {
+        Self::following(url, 10)
+    }
+
+    /// One for which a redirect is an answer.
+    pub fn without_redirects(url: &str) -> Self {
+        Self::following(url, 0)
+    }
+
+    fn following(url: &str, redirects: u32) -> Self {
         let agent = ureq::Agent::config_builder()
             .http_status_as_error(false)
+            .max_redirects(redirects)
             .timeout_global(Some(PATIENCE))
             .max_idle_connections(4)
             .build()
@@ -176,12 +186,17 @@ impl Client {
 
     /// The job's events after the one with this identifier; from the first on when there is none.
     pub fn events(&self, id: &str, after: Option<&str>) -> Result<Events> {
-        let after = after.map(|after| ("last-event-id", after));
-        let headers: Vec<_> = [("accept", "text/event-stream")].into_iter().chain(after).collect();
-        let request = self.request("GET", &format!("/api/v1/jobs/{id}/events"), &headers, &[])?;
+        let after: Vec<_> = after.map(|after| ("last-event-id", after)).into_iter().collect();
+        self.stream(&format!("/api/v1/jobs/{id}/events"), &after)
+    }
+
+    /// The events that this path tells.
+    pub fn stream(&self, path: &str, headers: &[(&str, &str)]) -> Result<Events> {
+        let headers: Vec<_> = [("accept", "text/event-stream")].iter().chain(headers).copied().collect();
+        let request = self.request("GET", path, &headers, &[])?;
         let request = self.agent.configure_request(request).timeout_global(Some(LONGEST_STREAM)).build();
         let response = self.agent.run(request)?;
-        ensure!(response.status() == 200, "{} for the events of {id}", response.status());
+        ensure!(response.status() == 200, "{} for {path}", response.status());
         Ok(Events::new(response.into_body().into_reader()))
     }
 }

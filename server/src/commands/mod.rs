@@ -3,6 +3,7 @@
 mod config;
 mod experiment;
 mod gc;
+mod lti;
 mod openapi;
 mod options;
 mod presets;
@@ -10,6 +11,7 @@ mod run;
 mod samples;
 mod serve;
 mod shutdown;
+mod teacher;
 mod token;
 mod worker;
 
@@ -61,6 +63,10 @@ enum Command {
     Gc(gc::Arguments),
     /// Make, list or revoke the tokens by which a server on a public address knows its users.
     Token(token::Arguments),
+    /// Let a teacher into the classroom.
+    Teacher(teacher::Arguments),
+    /// Register, list or remove the learning platforms (LTI 1.3) from which users come.
+    Lti(lti::Arguments),
     /// Print the description of the HTTP API as OpenAPI 3.1.
     Openapi,
     /// Check the settings, or print an example file.
@@ -83,6 +89,8 @@ pub fn main() -> ExitCode {
         Command::Gc(arguments) => gc::run(&arguments),
         Command::Openapi => openapi::run(),
         Command::Token(arguments) => token::run(&arguments),
+        Command::Lti(arguments) => lti::run(arguments),
+        Command::Teacher(arguments) => teacher::run(&arguments),
         Command::Config(arguments) => config::run(&arguments),
     };
     match done {

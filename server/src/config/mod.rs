@@ -24,7 +24,7 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
-use values::{check, check_address, check_filter, check_folder, check_receiver};
+use values::{check, check_address, check_filter, check_folder, check_public_url, check_receiver};
 
 section! {
     /// Settings of one server or worker.
@@ -57,6 +57,10 @@ section! {
         auth: Auth;
         /// Messages to other servers.
         webhooks: Webhooks;
+        /// Classes.
+        classroom: Classroom;
+        /// Learning platforms.
+        lti: Lti;
     }
 }
 
@@ -150,6 +154,28 @@ section! {
     }
 }
 
+section! {
+    /// Classes, their pages and their exercises.
+    Classroom ["classroom"] {
+        /// Address under which people reach this server, where a proxy stands before it; links are made from it.
+        public_url: Option<String> = None, Rule::text(check_public_url).example(r#""https://lab.example.org""#);
+        /// Folder with exercises of your own, beside those of this program.
+        exercises: Option<PathBuf> = None, Rule::text(check_folder).example(r#""/var/lib/adaptarm/exercises""#);
+    }
+}
+
+section! {
+    /// Learning platforms (LTI 1.3).
+    Lti ["lti"] {
+        /// Platforms allowed although their addresses are not public: host names, and networks such as 10.0.0.0/8.
+        allow: Vec<String> = Vec::new(), Rule::list(check_receiver);
+        /// Wait before a grade that a platform did not take is sent again; later ones wait longer.
+        first_retry_s: f64 = 5.0, Rule::number(0.01, 3600.0, "s");
+        /// Longest wait between two tries; grades are never given up.
+        longest_retry_s: f64 = 86_400.0, Rule::number(1.0, 86_400.0, "s");
+    }
+}
+
 /// What is logged where nobody says otherwise; the page's files would be listed one by one.
 const DEFAULT_FILTER: &str = "info,memory_serve=warn,apalis_core=warn,sqlx=warn";
 
@@ -203,6 +229,13 @@ impl Webhooks {
     /// How long they may take, and when they are repeated.
     pub fn timing(&self) -> Timing {
         Timing { first_pause: Duration::from_secs_f64(self.first_retry_s), ..Timing::default() }
+    }
+}
+
+impl Lti {
+    /// Which platforms may be called.
+    pub fn policy(&self) -> Result<Policy, PolicyError> {
+        Policy::allowing(&self.allow)
     }
 }
 

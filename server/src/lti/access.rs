@@ -34,7 +34,13 @@ pub struct AccessTokens(Mutex<HashMap<(Uuid, String), Kept>>);
 
 impl AccessTokens {
     /// A token of this scope.
-    pub async fn token(&self, caller: &Caller, key: &ToolKey, platform: &Platform, scope: &str) -> Result<String, LtiError> {
+    pub async fn token(
+        &self,
+        caller: &Caller,
+        key: &ToolKey,
+        platform: &Platform,
+        scope: &str,
+    ) -> Result<String, LtiError> {
         let name = (platform.id, scope.to_owned());
         if let Some(kept) = self.0.lock().await.get(&name)
             && Instant::now() < kept.good_until

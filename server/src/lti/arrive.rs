@@ -102,7 +102,8 @@ pub async fn destination(tool: &Tool, launch: &Launch, staff: Uuid, context: &Co
         return match launch.role {
             Role::Teacher => Ok(format!("/teach.html#class={}", context.class)),
             Role::Student => {
-                let detail = "this link leads to no exercise yet; your teacher must open it once, or choose an exercise for it";
+                let detail =
+                    "this link leads to no exercise yet; your teacher must open it once, or choose an exercise for it";
                 Err(Refusal::new("link", detail).into())
             }
         };

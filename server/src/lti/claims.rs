@@ -85,14 +85,12 @@ pub struct Choosing {
 /// A launch's claims, those that count here.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Claims {
-    /// The platform's user.
-    pub sub: String,
+    sub: Option<String>,
     aud: OneOrMore,
     azp: Option<String>,
     iat: Option<f64>,
     nonce: Option<String>,
-    /// What they are called, if the platform tells.
-    pub name: Option<String>,
+    name: Option<String>,
     given_name: Option<String>,
     family_name: Option<String>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/message_type")]
@@ -166,7 +164,14 @@ pub struct Launch {
 
 impl Claims {
     /// The launch, if all of it is as it must be. `base` is this server as browsers reach it.
-    pub fn check(self, platform: &Platform, state: &State, nonce: &str, base: &str, now_s: i64) -> Result<Launch, Refusal> {
+    pub fn check(
+        self,
+        platform: &Platform,
+        state: &State,
+        nonce: &str,
+        base: &str,
+        now_s: i64,
+    ) -> Result<Launch, Refusal> {
         self.check_time_and_audience(platform, now_s)?;
         if !self.nonce.as_deref().is_some_and(|own| equal(own, nonce)) {
             return Err(Refusal::new("nonce", "the launch answers another login"));
@@ -180,13 +185,17 @@ impl Claims {
         }
         let target = self.target.as_deref().ok_or_else(|| Refusal::new("target", "the launch has no target link"))?;
         if !is_ours(target, base) || !state.is_for(target) {
-            return Err(Refusal::new("target", "the target link is another tool's, or not the one that the login named"));
+            return Err(Refusal::new(
+                "target",
+                "the target link is another tool's, or not the one that the login named",
+            ));
         }
-        let subject = named(Some(&self.sub), "sub")?;
+        let subject = named(self.sub.as_deref(), "sub")?;
         let role = role(&self.roles).ok_or_else(|| {
             Refusal::new("role", "only those who teach or attend a course come in; the launch names no such role")
         })?;
-        let context = self.context.as_ref().ok_or_else(|| Refusal::new("context", "the launch comes from no course"))?;
+        let context =
+            self.context.as_ref().ok_or_else(|| Refusal::new("context", "the launch comes from no course"))?;
         let (context, title) = (named(Some(&context.id), "context.id")?, context.title.clone());
         let gradebook = self.gradebook.clone().unwrap_or_default();
         let may = |scope: &str| gradebook.scope.iter().any(|own| own == scope);
@@ -234,7 +243,8 @@ impl Claims {
                 Err(Refusal::new("role", "only those who teach a course choose what is in it"))
             }
             (Some("LtiDeepLinkingRequest"), Role::Teacher) => {
-                let settings = self.choosing.clone().ok_or_else(|| Refusal::new("claim", "there is nothing to choose for"))?;
+                let settings =
+                    self.choosing.clone().ok_or_else(|| Refusal::new("claim", "there is nothing to choose for"))?;
                 if !settings.accept_types.iter().any(|kind| kind == "ltiResourceLink") {
                     return Err(Refusal::new("accept_types", "the platform takes no links to tools here"));
                 }

@@ -93,7 +93,8 @@ impl Caller {
     }
 
     fn request(&self, method: Method, url: &str, token: Option<&str>) -> Result<RequestBuilder, LtiError> {
-        let url = self.check(url).map_err(|problem| LtiError::Platform(format!("an address of the platform {problem}")))?;
+        let url =
+            self.check(url).map_err(|problem| LtiError::Platform(format!("an address of the platform {problem}")))?;
         let client = match self.client.get() {
             Some(client) => client,
             None => {

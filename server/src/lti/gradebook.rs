@@ -23,7 +23,8 @@ pub async fn column(tool: &Tool, item: &DueItem, label: &str, most: f64) -> Resu
     search.query_pairs_mut().append_pair("resource_link_id", &item.link).append_pair("limit", "100");
     let answer = tool.caller.get(search.as_str(), ITEMS, Some(&token)).await?;
     let found = check(tool, &item.platform, LINE_ITEM_SCOPE, answer, "looking for a column").await?;
-    let own = |column: &&Value| column["resourceLinkId"] == item.link.as_str() && column["resourceId"] == assignment.as_str();
+    let own =
+        |column: &&Value| column["resourceLinkId"] == item.link.as_str() && column["resourceId"] == assignment.as_str();
     let column = match found.as_array().into_iter().flatten().find(own) {
         Some(column) => column.clone(),
         None => {
@@ -35,7 +36,8 @@ pub async fn column(tool: &Tool, item: &DueItem, label: &str, most: f64) -> Resu
             check(tool, &item.platform, LINE_ITEM_SCOPE, answer, "making a column").await?
         }
     };
-    let id = column["id"].as_str().ok_or_else(|| LtiError::Platform("the platform's column has no address".to_owned()))?;
+    let id =
+        column["id"].as_str().ok_or_else(|| LtiError::Platform("the platform's column has no address".to_owned()))?;
     Ok(id.to_owned())
 }
 

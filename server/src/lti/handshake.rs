@@ -81,7 +81,8 @@ impl State {
     /// Whether a login of this server's gave it to the browser with this cookie, not too long ago.
     pub fn check(&self, secret: &str, browser: Option<&str>, now_s: i64) -> Result<(), Refusal> {
         let Some(browser) = browser else {
-            let detail = "the browser did not keep the login's cookie; open the link in a new window, or allow cookies here";
+            let detail =
+                "the browser did not keep the login's cookie; open the link in a new window, or allow cookies here";
             return Err(Refusal::new("browser", detail));
         };
         if !equal(&self.mac, &self.sealed(secret, browser)) {
@@ -140,7 +141,10 @@ mod tests {
         let login = begin("secret", Uuid::from_u128(7), "https://tool/x", NOW_S).unwrap();
         let state = State::parse(&login.state).unwrap();
         let browser = Some(login.browser.as_str());
-        assert_eq!((state.platform, state.cookie(), state.nonce("secret")), (Uuid::from_u128(7), login.cookie, login.nonce));
+        assert_eq!(
+            (state.platform, state.cookie(), state.nonce("secret")),
+            (Uuid::from_u128(7), login.cookie, login.nonce)
+        );
         assert_eq!(state.check("secret", browser, NOW_S + LOGIN_S), Ok(()));
         assert!(state.is_for("https://tool/x") && !state.is_for("https://tool/y"));
         let reason = |refused: Result<(), Refusal>| refused.unwrap_err().reason;
@@ -148,7 +152,8 @@ mod tests {
         assert_eq!(reason(state.check("secret", None, NOW_S)), "browser");
         assert_eq!(reason(state.check("secret", Some(&"0".repeat(64)), NOW_S)), "state");
         assert_eq!(reason(state.check("other", browser, NOW_S)), "state");
-        for (part, other) in [(0, Uuid::nil().simple().to_string()), (1, (NOW_S + 9999).to_string()), (3, digest("y"))] {
+        for (part, other) in [(0, Uuid::nil().simple().to_string()), (1, (NOW_S + 9999).to_string()), (3, digest("y"))]
+        {
             let mut parts: Vec<_> = login.state.split('.').collect();
             parts[part] = &other;
             let forged = State::parse(&parts.join(".")).unwrap();

@@ -38,8 +38,7 @@ impl ToolKey {
         let PublicKeyComponents::<Vec<u8>> { n, e } = pair.public().into();
         let kid = hex::encode(&Sha256::digest(&n)[..16]);
         let [n, e] = [n, e].map(|number| URL_SAFE_NO_PAD.encode(number));
-        let public =
-            json!({ "keys": [{ "kty": "RSA", "use": "sig", "alg": "RS256", "kid": kid, "n": n, "e": e }] });
+        let public = json!({ "keys": [{ "kty": "RSA", "use": "sig", "alg": "RS256", "kid": kid, "n": n, "e": e }] });
         Ok(Self { key: EncodingKey::from_rsa_der(&der), kid, public })
     }
 

@@ -78,7 +78,8 @@ pub fn origins(platform: &Platform, more: Option<&str>) -> String {
 
 /// A button that opens the laboratory in a window of its own, where its cookies are its own, too.
 pub fn open(language: Language, frames: &str, ticket: &str) -> Response {
-    let title = language.of_two("The laboratory opens in its own window", "El laboratorio se abre en su propia ventana");
+    let title =
+        language.of_two("The laboratory opens in its own window", "El laboratorio se abre en su propia ventana");
     let body = html! {
         form method="post" action="/lti/enter" target="_blank" {
             input type="hidden" name="ticket" value=(ticket);

@@ -8,8 +8,8 @@ use super::gradebook;
 use super::model::{DueItem, DueScore, Score, StaleLink};
 use super::refusal::LtiError;
 use super::tool::Tool;
-use crate::classroom::work::Work;
 use crate::classroom::views;
+use crate::classroom::work::Work;
 use crate::webhooks::pause_after;
 use futures_util::future::join_all;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ const LEASE: Duration = Duration::from_secs(60);
 /// Calls made at a time.
 const AT_A_TIME: i64 = 8;
 
-/// Failed attempts after which the pause does not grow any more: a day.
+/// Failed attempts after which the pause does not grow any more.
 const LAST_PAUSE: u32 = 7;
 
 /// Passes grades back until told to stop.
@@ -97,10 +97,10 @@ async fn deliver(tool: &Tool, score: &DueScore) -> Result<(), LtiError> {
     Ok(())
 }
 
-/// Longer and longer, but never given up: a grade is worth a call a day.
+/// Longer and longer, up to what the settings say, but never given up.
 fn pause(tool: &Tool, tries: u32) -> Duration {
     let attempt = tries.saturating_add(1).min(LAST_PAUSE);
-    pause_after(attempt, tool.first_pause, None).unwrap_or(LEASE)
+    pause_after(attempt, tool.first_pause, None).unwrap_or(tool.longest_pause).min(tool.longest_pause)
 }
 
 /// Why the platform has not got it; our own failures are not told as the platform's.

@@ -32,7 +32,8 @@ pub struct PlatformKeys(Mutex<HashMap<Uuid, Known>>);
 impl PlatformKeys {
     /// A platform's key of this name.
     pub async fn key(&self, caller: &Caller, platform: &Platform, kid: &str) -> Result<DecodingKey, LtiError> {
-        let missing = || Refusal::new("key", "the platform publishes no key of the name that the launch is signed with");
+        let missing =
+            || Refusal::new("key", "the platform publishes no key of the name that the launch is signed with");
         {
             let known = self.0.lock().await;
             if let Some(Known { keys, asked_at }) = known.get(&platform.id) {

@@ -41,7 +41,8 @@ impl NewPlatform {
         }
         name("/client_id", &client_id)?;
         if deployments.is_empty() {
-            let message = "is empty: launches come from a deployment, and only those that are named are let in".to_owned();
+            let message =
+                "is empty: launches come from a deployment, and only those that are named are let in".to_owned();
             return Err(ScenarioError::new("/deployments", Problem::Malformed { message }));
         }
         if deployments.len() > DEPLOYMENTS {

@@ -62,6 +62,9 @@ pub async fn fetch(tool: &Tool, platform: &Platform, context: &Context) -> Resul
             return Err(LtiError::Platform(format!("the list of members has more than {MEMBERS}")).into());
         }
     }
+    if next.is_some() {
+        return Err(LtiError::Platform(format!("the list of members has more than {PAGES} pages")).into());
+    }
     Ok(tool.store.enroll(context.id, &members, STUDENTS).await.map_err(LtiError::from)?)
 }
 

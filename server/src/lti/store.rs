@@ -40,6 +40,9 @@ pub trait LtiStore: Send + Sync + 'static {
     /// Finds or makes class and person of whoever arrives. A class has at most so many students.
     async fn arrive(&self, arrival: &Arrival, most: i64) -> Result<Arrived, StoreError>;
 
+    /// A student's platform, and what it calls them, if they came by one.
+    async fn known_as(&self, student: Uuid) -> Result<Option<(String, String)>, StoreError>;
+
     /// The course of a class.
     async fn context_of(&self, class: Uuid) -> Result<Option<Context>, StoreError>;
 
@@ -72,6 +75,9 @@ pub trait LtiStore: Send + Sync + 'static {
 
     /// A link's column could not be had; to be tried again after this pause.
     async fn item_failed(&self, id: Uuid, pause: Duration, error: &str) -> Result<(), StoreError>;
+
+    /// Whatever waits is due at once: whoever was sending it is known to be dead.
+    async fn retry_all(&self) -> Result<(), StoreError>;
 
     /// Takes scores that are to be sent; for this long nobody else takes them.
     async fn due_scores(&self, limit: i64, lease: Duration) -> Result<Vec<DueScore>, StoreError>;

@@ -37,8 +37,10 @@ pub struct Tool {
     pub platform_keys: PlatformKeys,
     /// What they let us in by.
     pub access: AccessTokens,
-    /// The pause before a failed delivery of a grade is tried again.
+    /// The pause before a grade that could not be delivered is tried again.
     pub first_pause: Duration,
+    /// The longest pause between two tries.
+    pub longest_pause: Duration,
     key: OnceCell<ToolKey>,
     secret: OnceCell<String>,
 }
@@ -52,7 +54,8 @@ impl Tool {
             caller: caller(config)?,
             platform_keys: PlatformKeys::default(),
             access: AccessTokens::default(),
-            first_pause: config.lti.first_retry(),
+            first_pause: Duration::from_secs_f64(config.lti.first_retry_s),
+            longest_pause: Duration::from_secs_f64(config.lti.longest_retry_s),
             key: OnceCell::new(),
             secret: OnceCell::new(),
         })

@@ -45,7 +45,8 @@ impl Browser {
         headers.extend(more);
         let answer = self.client.send("POST", path, &headers, body.as_bytes())?;
         for set in answer.headers.get_all("set-cookie") {
-            let (name, value) = set.to_str()?.split(';').next().and_then(|pair| pair.split_once('=')).context("no cookie")?;
+            let (name, value) =
+                set.to_str()?.split(';').next().and_then(|pair| pair.split_once('=')).context("no cookie")?;
             self.cookies.insert(name.to_owned(), value.to_owned());
         }
         Ok(answer)
@@ -90,7 +91,8 @@ impl Browser {
 
     /// Brings a token to the tool, as the platform's page does.
     pub fn bring(&mut self, state: &str, token: &str, more: &[(&str, &str)]) -> Result<Answer> {
-        let headers: Vec<_> = [("origin", "null"), ("sec-fetch-site", "cross-site")].into_iter().chain(more.iter().copied()).collect();
+        let headers: Vec<_> =
+            [("origin", "null"), ("sec-fetch-site", "cross-site")].into_iter().chain(more.iter().copied()).collect();
         self.post_form("/lti/launch", &[("state", state), ("id_token", token)], &headers)
     }
 
@@ -116,6 +118,10 @@ impl Browser {
 pub fn hidden(page: &Answer, name: &str) -> Result<String> {
     let text = std::str::from_utf8(&page.body)?;
     let field = format!("name=\"{name}\" value=\"");
-    let value = text.split_once(&field).and_then(|(_, rest)| rest.split_once('"')).with_context(|| format!("no {name}: {page}"))?.0;
+    let value = text
+        .split_once(&field)
+        .and_then(|(_, rest)| rest.split_once('"'))
+        .with_context(|| format!("no {name}: {page}"))?
+        .0;
     Ok(value.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&"))
 }

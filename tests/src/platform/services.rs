@@ -110,11 +110,7 @@ async fn columns(
     Ok(Json(columns).into_response())
 }
 
-async fn add_column(
-    State(shared): State<Arc<Shared>>,
-    headers: HeaderMap,
-    body: String,
-) -> Result<Response, Response> {
+async fn add_column(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: String) -> Result<Response, Response> {
     check(&shared, &headers, SCOPES[0])?;
     let column = read(&headers, "application/vnd.ims.lis.v2.lineitem+json", &body)?;
     let added = lock(&shared.gradebook).add(&shared.url, &column);
@@ -133,7 +129,7 @@ async fn score(
         return Err(refuse(StatusCode::NOT_FOUND, "the column's address had a query"));
     }
     let score = read(&headers, "application/vnd.ims.lis.v1.score+json", &body)?;
-    let posted = lock(&shared.gradebook).post(&shared.url, number, score);
+    let posted = lock(&shared.gradebook).post(number, score);
     match posted {
         Ok(()) => Ok(StatusCode::OK.into_response()),
         Err(why) if why.contains("is there") => Err(refuse(StatusCode::CONFLICT, why)),

@@ -1,7 +1,7 @@
 //! A user's way in: login, launch, and from there into the classroom or to the choice of an exercise.
 //!
 //! The laboratory is never shown inside a platform's page: its session's cookie stays `SameSite=Strict`. What is shown there are
-//! three small pages that carry a ticket, good once (decision 0018). Only the login's own cookie can be sent from a frame.
+//! three small pages that carry a ticket, good once (decision 0019). Only the login's own cookie can be sent from a frame.
 
 use super::super::arrive::{self, arrive, destination, redeem, ticket};
 use super::super::claims::{Launch, Wish};
@@ -11,8 +11,8 @@ use super::super::model::Platform;
 use super::super::pages::{self, Language};
 use super::super::refusal::{LtiError, Refusal};
 use crate::api::Query;
-use crate::classroom::session::{Signed, begin, cookie, set_cookie};
 use crate::classroom::give_out;
+use crate::classroom::session::{Signed, begin, cookie, set_cookie};
 use crate::error::Problem;
 use crate::state::AppState;
 use adaptarm_core::exercises::Exercise;
@@ -70,11 +70,16 @@ async fn begin_login(state: &AppState, headers: &HeaderMap, login: &Login) -> Re
     });
     let platform = fitting.next().ok_or_else(|| Refusal::new("platform", "no such platform is registered here"))?;
     if fitting.next().is_some() {
-        return Err(Refusal::new("platform", "several such platforms are registered; the login must name its client_id").into());
+        return Err(Refusal::new(
+            "platform",
+            "several such platforms are registered; the login must name its client_id",
+        )
+        .into());
     }
     let https = state.desk.is_https(headers);
-    let begun = handshake::begin(tool.secret().await?, platform.id, &login.target_link_uri, Timestamp::now().as_second())
-        .map_err(crate::routes::internal)?;
+    let begun =
+        handshake::begin(tool.secret().await?, platform.id, &login.target_link_uri, Timestamp::now().as_second())
+            .map_err(crate::routes::internal)?;
     let mut url = Url::parse(&platform.auth_url).map_err(crate::routes::internal)?;
     let redirect = target(&state.desk.base(headers));
     url.query_pairs_mut().extend_pairs([
@@ -82,11 +87,11 @@ async fn begin_login(state: &AppState, headers: &HeaderMap, login: &Login) -> Re
         ("response_type", "id_token"),
         ("response_mode", "form_post"),
         ("prompt", "none"),
-        ("client_id", &platform.client_id),
-        ("redirect_uri", &redirect),
-        ("state", &begun.state),
-        ("nonce", &begun.nonce),
-        ("login_hint", &login.login_hint),
+        ("client_id", platform.client_id.as_str()),
+        ("redirect_uri", redirect.as_str()),
+        ("state", begun.state.as_str()),
+        ("nonce", begun.nonce.as_str()),
+        ("login_hint", login.login_hint.as_str()),
     ]);
     if let Some(hint) = &login.lti_message_hint {
         url.query_pairs_mut().append_pair("lti_message_hint", hint);
@@ -169,10 +174,16 @@ async fn in_window(
 }
 
 /// The exercises to choose from.
-async fn offer(state: &AppState, headers: &HeaderMap, platform: &Platform, choice: &Choice) -> Result<Response, Problem> {
+async fn offer(
+    state: &AppState,
+    headers: &HeaderMap,
+    platform: &Platform,
+    choice: &Choice,
+) -> Result<Response, Problem> {
     let ticket = ticket(&state.lti, choice, CHOOSE_WITHIN).await?;
     let frames = pages::origins(platform, Some(&choice.return_url));
-    let exercises = state.desk.library.all().map(Exercise::document).map(|exercise| (exercise.id.as_str(), &exercise.title));
+    let exercises =
+        state.desk.library.all().map(Exercise::document).map(|exercise| (exercise.id.as_str(), &exercise.title));
     Ok(pages::choose(Language::of(headers), &frames, &ticket, exercises))
 }
 

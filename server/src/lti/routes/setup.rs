@@ -37,6 +37,7 @@ pub(super) async fn canvas(State(state): State<AppState>, headers: HeaderMap) ->
             "text": "adaptarm", "enabled": true,
         })
     };
+    let placements = ["assignment_selection", "link_selection"].map(choosing);
     Json(json!({
         "title": "adaptarm",
         "description": "Exercises in the adaptive control of robot arms.",
@@ -47,7 +48,7 @@ pub(super) async fn canvas(State(state): State<AppState>, headers: HeaderMap) ->
         "extensions": [{
             "platform": "canvas.instructure.com",
             "privacy_level": "name_only",
-            "settings": { "placements": ["assignment_selection", "link_selection"].map(choosing) },
+            "settings": { "placements": placements },
         }],
         "custom_fields": {},
     }))

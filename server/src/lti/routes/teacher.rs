@@ -19,7 +19,10 @@ use serde_json::{Value, json};
 const PLATFORMS: usize = 50;
 
 /// The teacher's platforms.
-pub(super) async fn platforms(State(state): State<AppState>, Teacher(teacher): Teacher) -> Result<Json<Value>, Problem> {
+pub(super) async fn platforms(
+    State(state): State<AppState>,
+    Teacher(teacher): Teacher,
+) -> Result<Json<Value>, Problem> {
     let mut platforms = state.lti.store.platforms().await.map_err(LtiError::from)?;
     platforms.retain(|platform| platform.teacher == teacher.id);
     Ok(Json(json!({ "platforms": platforms })))

@@ -1,6 +1,7 @@
 //! Launches that are not what they say: each is refused, for its own reason, and makes nobody.
 
 use super::{Setting, reason};
+use adaptarm_tests::classroom::Visitor;
 use adaptarm_tests::platform::{CLAIM, Key, Signed, User};
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
@@ -20,7 +21,11 @@ fn forgeries() -> Vec<Forgery> {
         ("of no time", json!({ "iat": null }), "claim"),
         ("for another tool", json!({ "aud": "another-client" }), "audience"),
         ("for several, of which none is authorized", json!({ "aud": ["adaptarm-client", "b"] }), "audience"),
-        ("for several, of which another is authorized", json!({ "aud": ["adaptarm-client", "b"], "azp": "b" }), "audience"),
+        (
+            "for several, of which another is authorized",
+            json!({ "aud": ["adaptarm-client", "b"], "azp": "b" }),
+            "audience",
+        ),
         ("authorized for another", json!({ "azp": "b" }), "audience"),
         ("of another issuer", json!({ "iss": "https://elsewhere.example.org" }), "issuer"),
         ("with another nonce", json!({ "nonce": "0".repeat(64) }), "nonce"),
@@ -51,7 +56,9 @@ pub fn forged_launches() -> Result<()> {
             let mut claims = platform.claims(&eve, "link", nonce);
             for (name, value) in change.as_object().into_iter().flatten() {
                 if value.is_null() {
-                    claims.as_object_mut().map(|claims| claims.remove(name));
+                    if let Some(claims) = claims.as_object_mut() {
+                        claims.remove(name);
+                    }
                 } else {
                     claims[name] = value.clone();
                 }
@@ -148,7 +155,7 @@ fn logins(setting: &Setting) -> Result<()> {
     ensure!(reason(&browser.post_form("/lti/login", &unknown, &[])?)? == "platform", "an unknown platform");
     let twice = setting.teacher.post("/lti/platforms", &platform.registration())?;
     ensure!(twice.status == 409, "{twice}");
-    let student = setting.teacher.send("POST", "/lti/platforms", &[("cookie", "")], Some(&platform.registration()))?;
-    ensure!(student.status == 401, "{student}");
+    let stranger = Visitor::new(&setting.server.url).post("/lti/platforms", &platform.registration())?;
+    ensure!(stranger.status == 401, "{stranger}");
     Ok(())
 }

@@ -41,7 +41,9 @@ pub fn crashes() -> Result<()> {
     let arrived = setting.platform.scores();
     let given: BTreeMap<_, _> = arrived
         .iter()
-        .map(|posted| (posted.score["userId"].as_str().unwrap_or_default().to_owned(), posted.score["scoreGiven"].clone()))
+        .map(|posted| {
+            (posted.score["userId"].as_str().unwrap_or_default().to_owned(), posted.score["scoreGiven"].clone())
+        })
         .collect();
     ensure!(given == expected, "{given:?} instead of {expected:?}");
     ensure!(arrived.len() == expected.len(), "some arrived twice: {arrived:?}");

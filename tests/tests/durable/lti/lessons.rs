@@ -3,7 +3,8 @@
 use super::{Setting, reason};
 use adaptarm_tests::classroom::stiff;
 use adaptarm_tests::client::surely;
-use adaptarm_tests::platform::{Platform, Posted, User, hidden};
+use adaptarm_tests::platform::{Platform, Posted, Signed, User, hidden};
+use adaptarm_tests::postgres::Cluster;
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -16,14 +17,23 @@ pub fn scores(platform: &Platform, count: usize) -> Result<Vec<Posted>> {
     found.with_context(|| format!("waiting for {count} scores; there are {:?}", platform.scores()))
 }
 
+pub fn on_sqlite() -> Result<()> {
+    whole(&Setting::new()?)
+}
+
+pub fn on_postgres() -> Result<()> {
+    let cluster = Cluster::start()?;
+    let database = cluster.database("course")?;
+    whole(&Setting::with(&["--database", &database])?)
+}
+
 /// Choosing, following links, grades, members.
-pub fn lessons() -> Result<()> {
-    let setting = Setting::new()?;
-    let assignment = chooses(&setting)?;
-    grades(&setting, &assignment)?;
-    members(&setting)?;
-    in_a_frame(&setting, &assignment)?;
-    separate(&setting, &assignment)
+fn whole(setting: &Setting) -> Result<()> {
+    let assignment = chooses(setting)?;
+    grades(setting, &assignment)?;
+    members(setting)?;
+    in_a_frame(setting, &assignment)?;
+    separate(setting, &assignment)
 }
 
 /// A teacher chooses an exercise from within the platform; the assignment.
@@ -33,10 +43,17 @@ fn chooses(setting: &Setting) -> Result<String> {
     let page = browser.launch(platform, |nonce| platform.choosing(&tina, nonce))?;
     ensure!(page.status == 200 && String::from_utf8_lossy(&page.body).contains("Hold it"), "{page}");
     let policy = page.header("content-security-policy");
-    ensure!(policy.contains("form-action 'self'") && policy.contains(&format!("frame-ancestors {}", platform.url())), "{policy}");
+    ensure!(
+        policy.contains("form-action 'self'") && policy.contains(&format!("frame-ancestors {}", platform.url())),
+        "{policy}"
+    );
     let ticket = hidden(&page, "ticket")?;
     let own = [("sec-fetch-site", "same-origin")];
-    let foreign = browser.post_form("/lti/choose", &[("ticket", &ticket), ("exercise", "hold")], &[("sec-fetch-site", "cross-site")])?;
+    let foreign = browser.post_form(
+        "/lti/choose",
+        &[("ticket", &ticket), ("exercise", "hold")],
+        &[("sec-fetch-site", "cross-site")],
+    )?;
     ensure!(foreign.status == 403, "another site's page chooses: {foreign}");
     let carried = browser.post_form("/lti/choose", &[("ticket", &ticket), ("exercise", "hold")], &own)?;
     ensure!(carried.status == 200, "{carried}");
@@ -79,7 +96,10 @@ fn grades(setting: &Setting, assignment: &str) -> Result<()> {
     teacher.put(&path, &json!({ "points": null, "comment": "a mistake" }))?.expect(200)?;
     ensure!(scores(platform, 3)?[2].score["scoreGiven"] == attempt["points"], "{:?}", platform.scores());
     let columns = platform.columns();
-    ensure!(columns.len() == 1 && columns[0]["resourceId"] == assignment && columns[0]["label"] == "Hold it", "{columns:?}");
+    ensure!(
+        columns.len() == 1 && columns[0]["resourceId"] == assignment && columns[0]["label"] == "Hold it",
+        "{columns:?}"
+    );
     let standing = || {
         let standing = teacher.get(&format!("/assignments/{assignment}/lti"))?.expect(200)?;
         let wanted = json!({ "links": 1, "columns": 1, "sent": 1, "waiting": 0, "error": null });
@@ -91,9 +111,7 @@ fn grades(setting: &Setting, assignment: &str) -> Result<()> {
 /// The platform's list makes students of those who attend.
 fn members(setting: &Setting) -> Result<()> {
     let role = |name: &str| json!([format!("http://purl.imsglobal.org/vocab/lis/v2/membership#{name}")]);
-    let member = |subject: &str, name: &str, role: Value, status: &str| {
-        json!({ "user_id": subject, "name": name, "roles": role, "status": status, "lis_person_sourcedid": format!("N-{subject}") })
-    };
+    let member = |subject: &str, name: &str, role: Value, status: &str| json!({ "user_id": subject, "name": name, "roles": role, "status": status, "lis_person_sourcedid": format!("N-{subject}") });
     setting.platform.set_members(vec![
         member("sam", "Sam Soto", role("Learner"), "Active"),
         member("tina", "Tina Teach", role("Instructor"), "Active"),
@@ -110,9 +128,11 @@ fn members(setting: &Setting) -> Result<()> {
     let again = teacher.post(&path, &json!({}))?.expect(200)?;
     ensure!(again == json!({ "listed": 3, "added": 0, "left_out": 0 }), "{again}");
     let shown = teacher.get(&format!("/classes/{class}"))?.expect(200)?;
-    let names: Vec<_> = shown["students"].as_array().into_iter().flatten().map(|one| (&one["name"], &one["number"])).collect();
+    let names: Vec<_> =
+        shown["students"].as_array().into_iter().flatten().map(|one| (&one["name"], &one["number"])).collect();
     // A name that a spreadsheet would run is none.
-    let wanted = [("Sam Soto", "N-sam"), ("Una Uribe", "N-una"), ("Student", "N-vic")].map(|(name, number)| (json!(name), json!(number)));
+    let wanted = [("Sam Soto", "N-sam"), ("Una Uribe", "N-una"), ("Student", "N-vic")]
+        .map(|(name, number)| (json!(name), json!(number)));
     ensure!(names == wanted.iter().map(|(name, number)| (name, number)).collect::<Vec<_>>(), "{shown}");
     // Who was listed is the one who comes.
     let una = setting.enter(&User::new("una", "Learner"), "link-1", None)?;
@@ -128,7 +148,7 @@ fn in_a_frame(setting: &Setting, assignment: &str) -> Result<()> {
     let (platform, mut browser) = (&setting.platform, setting.browser());
     let begun = browser.login(platform)?;
     let claims = platform.claims(&User::new("sam", "Learner"), "link-1", &begun.nonce);
-    let token = adaptarm_tests::platform::Signed::By(platform.key()).token(&claims)?;
+    let token = Signed::By(platform.key()).token(&claims)?;
     let page = browser.bring(&begun.state, &token, &[("sec-fetch-dest", "iframe"), ("accept-language", "es-MX")])?;
     ensure!(page.status == 200 && String::from_utf8_lossy(&page.body).contains("Abrir"), "{page}");
     ensure!(!browser.cookies.contains_key("adaptarm"), "a session within a frame");
@@ -136,7 +156,10 @@ fn in_a_frame(setting: &Setting, assignment: &str) -> Result<()> {
     let mut enter = |site| browser.post_form("/lti/enter", &[("ticket", &ticket)], &[("sec-fetch-site", site)]);
     ensure!(enter("cross-site")?.status == 403, "another site's page enters");
     let entered = enter("same-origin")?;
-    ensure!(entered.status == 303 && entered.header("location") == format!("/learn.html#assignment={assignment}"), "{entered}");
+    ensure!(
+        entered.status == 303 && entered.header("location") == format!("/learn.html#assignment={assignment}"),
+        "{entered}"
+    );
     ensure!(entered.header("set-cookie").contains("SameSite=Strict"), "{}", entered.header("set-cookie"));
     ensure!(reason(&enter("same-origin")?)? == "ticket", "a ticket is good twice");
     Ok(())
@@ -145,15 +168,14 @@ fn in_a_frame(setting: &Setting, assignment: &str) -> Result<()> {
 /// Another course is another class: neither its teacher nor its students see this one.
 fn separate(setting: &Setting, assignment: &str) -> Result<()> {
     let other = setting.enter(&User::new("theo", "Instructor").of("chemistry"), "link-9", None)?;
-    ensure!(other.get(&format!("/assignments/{assignment}/board"))?.status == 404, "another course's teacher sees the board");
+    ensure!(
+        other.get(&format!("/assignments/{assignment}/board"))?.status == 404,
+        "another course's teacher sees the board"
+    );
     let (_, refused) = setting.follow(&User::new("sam", "Learner").of("chemistry"), "link-9", Some(assignment))?;
     ensure!(reason(&refused)? == "link", "a link to another course's assignment");
-    let (_, chooser) = (|| {
-        let mut browser = setting.browser();
-        let sam = User::new("sam", "Learner");
-        let answer = browser.launch(&setting.platform, |nonce| setting.platform.choosing(&sam, nonce))?;
-        Ok::<_, anyhow::Error>((browser, answer))
-    })()?;
+    let sam = User::new("sam", "Learner");
+    let chooser = setting.browser().launch(&setting.platform, |nonce| setting.platform.choosing(&sam, nonce))?;
     ensure!(reason(&chooser)? == "role", "a student chooses");
     Ok(())
 }

@@ -6,7 +6,7 @@ mod lessons;
 
 pub use forged::forged_launches;
 pub use grades::crashes;
-pub use lessons::lessons;
+pub use lessons::{on_postgres, on_sqlite};
 
 use adaptarm_tests::classroom::{Visitor, school};
 use adaptarm_tests::client::Answer;
@@ -25,11 +25,17 @@ struct Setting {
 
 impl Setting {
     fn new() -> Result<Self> {
+        Self::with(&[])
+    }
+
+    /// On the database that these arguments name.
+    fn with(database: &[&str]) -> Result<Self> {
         let platform = Platform::start()?;
-        let launch = Launch::new().variable("ADAPTARM_LTI_ALLOW", "127.0.0.0/8").variable("ADAPTARM_LTI_FIRST_RETRY_S", "0.05");
+        let launch = Launch::new().arguments(database).variable("ADAPTARM_LTI_ALLOW", "127.0.0.0/8");
+        let launch = launch.variable("ADAPTARM_LTI_LONGEST_RETRY_S", "1");
         let (server, folder) = school(launch)?;
         platform.knows(&server.url);
-        let teacher = Visitor::teacher(&server, "ana.diaz", &[])?;
+        let teacher = Visitor::teacher(&server, "ana.diaz", database)?;
         teacher.post("/lti/platforms", &platform.registration())?.expect(201)?;
         Ok(Self { platform, server, teacher, _exercises: folder })
     }

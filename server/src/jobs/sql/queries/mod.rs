@@ -2,7 +2,9 @@
 
 mod change;
 mod claim;
+mod classroom;
 mod keep;
+mod lti;
 mod queue;
 mod read;
 mod submit;

@@ -121,6 +121,14 @@ async fn admit(connection: &mut Connection, context: &Context, member: &Member) 
     Ok(())
 }
 
+pub(super) async fn known_as(pool: &Pool, student: Uuid) -> Result<Option<(String, String)>, StoreError> {
+    let known = sqlx::query_as(
+        "SELECT p.issuer, m.subject FROM lti_member m JOIN lti_context c ON c.id = m.context_id \
+         JOIN lti_platform p ON p.id = c.platform_id WHERE m.person_id = $1",
+    );
+    Ok(known.bind(student.to_string()).fetch_optional(pool).await?)
+}
+
 pub(super) async fn context_of(pool: &Pool, class: Uuid) -> Result<Option<Context>, StoreError> {
     let query = sqlx::query_as("SELECT * FROM lti_context WHERE class_id = $1").bind(class.to_string());
     let row: Option<ContextRow> = query.fetch_optional(pool).await?;
@@ -160,12 +168,7 @@ pub(super) async fn set_link(
 }
 
 /// Takes over a list of members.
-pub(super) async fn enroll(
-    pool: &Pool,
-    context: Uuid,
-    members: &[Member],
-    most: i64,
-) -> Result<Enrolled, StoreError> {
+pub(super) async fn enroll(pool: &Pool, context: Uuid, members: &[Member], most: i64) -> Result<Enrolled, StoreError> {
     let mut transaction = begin(pool).await?;
     let connection = &mut *transaction;
     let row: ContextRow = sqlx::query_as("SELECT * FROM lti_context WHERE id = $1")

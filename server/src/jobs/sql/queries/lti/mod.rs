@@ -53,6 +53,10 @@ impl LtiStore for SqlStore {
         arrive::arrive(&self.write, arrival, most).await
     }
 
+    async fn known_as(&self, student: Uuid) -> Result<Option<(String, String)>, StoreError> {
+        arrive::known_as(&self.read, student).await
+    }
+
     async fn context_of(&self, class: Uuid) -> Result<Option<Context>, StoreError> {
         arrive::context_of(&self.read, class).await
     }
@@ -93,6 +97,10 @@ impl LtiStore for SqlStore {
 
     async fn item_failed(&self, id: Uuid, pause: Duration, error: &str) -> Result<(), StoreError> {
         passback::item_failed(&self.write, id, pause, error).await
+    }
+
+    async fn retry_all(&self) -> Result<(), StoreError> {
+        passback::retry_all(&self.write).await
     }
 
     async fn due_scores(&self, limit: i64, lease: Duration) -> Result<Vec<DueScore>, StoreError> {

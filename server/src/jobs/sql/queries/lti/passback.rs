@@ -150,6 +150,14 @@ pub(super) async fn item_failed(pool: &Pool, id: Uuid, pause: Duration, error: &
     Ok(())
 }
 
+pub(super) async fn retry_all(pool: &Pool) -> Result<(), StoreError> {
+    let mut transaction = begin(pool).await?;
+    sqlx::query("UPDATE lti_link SET due_at = 0 WHERE line_item IS NULL").execute(&mut *transaction).await?;
+    sqlx::query("UPDATE lti_score SET due_at = 0 WHERE sent_at IS NULL").execute(&mut *transaction).await?;
+    transaction.commit().await?;
+    Ok(())
+}
+
 pub(super) async fn due_scores(
     write: &Pool,
     read: &Pool,

@@ -58,22 +58,16 @@ pub(super) async fn use_nonce(pool: &Pool, nonce: &str, expires_at: Timestamp) -
     let mut transaction = begin(pool).await?;
     let at = now(&mut transaction).await?;
     sqlx::query("DELETE FROM lti_nonce WHERE expires_at < $1").bind(at).execute(&mut *transaction).await?;
-    let done =
-        sqlx::query("INSERT INTO lti_nonce (nonce, expires_at) VALUES ($1, $2) ON CONFLICT (nonce) DO NOTHING")
-            .bind(nonce)
-            .bind(expires_at.as_microsecond())
-            .execute(&mut *transaction)
-            .await?;
+    let done = sqlx::query("INSERT INTO lti_nonce (nonce, expires_at) VALUES ($1, $2) ON CONFLICT (nonce) DO NOTHING")
+        .bind(nonce)
+        .bind(expires_at.as_microsecond())
+        .execute(&mut *transaction)
+        .await?;
     transaction.commit().await?;
     Ok(done.rows_affected() > 0)
 }
 
-pub(super) async fn keep_ticket(
-    pool: &Pool,
-    hash: &str,
-    data: &str,
-    expires_at: Timestamp,
-) -> Result<(), StoreError> {
+pub(super) async fn keep_ticket(pool: &Pool, hash: &str, data: &str, expires_at: Timestamp) -> Result<(), StoreError> {
     let mut transaction = begin(pool).await?;
     let at = now(&mut transaction).await?;
     sqlx::query("DELETE FROM lti_ticket WHERE expires_at < $1").bind(at).execute(&mut *transaction).await?;
