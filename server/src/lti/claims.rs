@@ -2,10 +2,11 @@
 //!
 //! Signature, issuer, audience and expiry have been checked by then ([`super::jwt`]); the rest is checked here.
 
-use super::handshake::{State, equal};
+use super::handshake::State;
 use super::jwt::LEEWAY_S;
 use super::model::Platform;
 use super::refusal::Refusal;
+use crate::classroom::secrets::equal;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use url::Url;
