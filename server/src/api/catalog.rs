@@ -2,6 +2,7 @@
 
 use super::jobs::{LABEL_CHARS, PRIORITIES};
 use crate::config::Limits as JobLimits;
+use adaptarm_core::experiments::{EXPERIMENT_LIMITS, ExperimentLimits};
 use adaptarm_core::robots::RobotData;
 use adaptarm_core::scenario::{
     GainInfo, LIMITS, Limits, Preset, ProjectionBounds, Scenario, ScenarioDocument, ScenarioError, Scheme,
@@ -125,6 +126,9 @@ pub struct LimitsView {
     /// On one scenario.
     #[schema(value_type = crate::openapi::ScenarioLimits)]
     pub scenario: Limits,
+    /// On one experiment.
+    #[schema(value_type = crate::openapi::ExperimentLimits)]
+    pub experiment: ExperimentLimits,
     /// On one job.
     pub job: JobLimitsView,
     /// On all jobs of one user together.
@@ -167,6 +171,7 @@ impl From<&JobLimits> for LimitsView {
     fn from(limits: &JobLimits) -> Self {
         Self {
             scenario: LIMITS,
+            experiment: EXPERIMENT_LIMITS,
             job: JobLimitsView {
                 scenarios: limits.scenarios_per_job,
                 steps: limits.steps_per_job,

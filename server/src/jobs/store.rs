@@ -3,7 +3,8 @@
 //! Every write of a worker is fenced: it names its claim, and a claim that was overtaken (its lease ran out, the job was
 //! canceled) changes nothing and is told to stop.
 
-use super::claim::{Claim, Delivered, Order, StoredResult, Tick};
+use super::claim::{Claim, Delivered, Folded, MadeRuns, Order, StoredResult, Tick};
+use super::plan::Shard;
 use super::{Job, JobKind, JobState};
 use crate::config::Limits;
 use crate::webhooks::Webhook;
@@ -91,7 +92,59 @@ pub struct NewJob {
     /// The request's own name, and a hash of all it asks for.
     pub idempotency: Option<(String, String)>,
     /// What to compute.
-    pub scenarios: Vec<NewScenario>,
+    pub work: NewWork,
+}
+
+/// What a new job computes.
+#[derive(Debug)]
+pub enum NewWork {
+    /// Scenarios.
+    Study(Vec<NewScenario>),
+    /// An experiment.
+    Experiment(Box<NewExperiment>),
+}
+
+/// An experiment of a new job.
+#[derive(Debug)]
+pub struct NewExperiment {
+    /// Hash of its canonical form.
+    pub hash: String,
+    /// Its canonical form as JSON.
+    pub document: String,
+    /// What its progress is counted in: runs, or candidates.
+    pub count: u64,
+    /// Integration steps of all runs.
+    pub steps: u64,
+    /// Runs of its first step.
+    pub planned: u64,
+    /// Those, cut into parts.
+    pub shards: Vec<Shard>,
+}
+
+impl NewWork {
+    /// The scenarios; an experiment has none.
+    pub fn scenarios(&self) -> &[NewScenario] {
+        match self {
+            Self::Study(scenarios) => scenarios,
+            Self::Experiment(_) => &[],
+        }
+    }
+
+    /// What progress is counted in: how many there are.
+    pub fn count(&self) -> u64 {
+        match self {
+            Self::Study(scenarios) => scenarios.len() as u64,
+            Self::Experiment(experiment) => experiment.count,
+        }
+    }
+
+    /// Integration steps.
+    pub fn steps(&self) -> u64 {
+        match self {
+            Self::Study(scenarios) => scenarios.iter().map(|scenario| scenario.steps).sum(),
+            Self::Experiment(experiment) => experiment.steps,
+        }
+    }
 }
 
 impl NewJob {
@@ -104,7 +157,7 @@ impl NewJob {
             priority: 0,
             webhook: None,
             idempotency: None,
-            scenarios,
+            work: NewWork::Study(scenarios),
         }
     }
 }
@@ -146,6 +199,25 @@ pub struct ScenarioRow {
     pub checksum: Option<String>,
 }
 
+/// An experiment as the tables hold it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExperimentRow {
+    /// Its hash.
+    pub hash: String,
+    /// Its document.
+    pub document: String,
+    /// Version of the core that began it.
+    pub core_version: String,
+    /// Step that it is in.
+    pub step: i64,
+    /// Rows of this step.
+    pub done: i64,
+    /// The search of a tuning.
+    pub state: Option<Vec<u8>>,
+    /// The newest summary, as JSON.
+    pub summary: Option<String>,
+}
+
 /// What an event tells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventKind {
@@ -153,6 +225,8 @@ pub enum EventKind {
     State,
     /// A scenario has its result: the data are its number and a digest of the report.
     Summary,
+    /// An experiment was summed up: the data are the numbers that matter most. A later one takes its place.
+    Partial,
 }
 
 impl EventKind {
@@ -161,12 +235,13 @@ impl EventKind {
         match self {
             Self::State => "state",
             Self::Summary => "summary",
+            Self::Partial => "partial",
         }
     }
 
     /// The kind of this name.
     pub fn from_id(id: &str) -> Option<Self> {
-        [Self::State, Self::Summary].into_iter().find(|kind| kind.id() == id)
+        [Self::State, Self::Summary, Self::Partial].into_iter().find(|kind| kind.id() == id)
     }
 }
 
@@ -281,6 +356,24 @@ pub trait JobStore: Send + Sync + 'static {
         counted: i64,
         computed: Duration,
     ) -> Result<Delivered, StoreError>;
+
+    /// Keeps the rows of an experiment's part; the last ones of a step have it folded.
+    async fn deliver_runs(
+        &self,
+        claim: &Claim,
+        made: &MadeRuns,
+        counted: i64,
+        computed: Duration,
+    ) -> Result<Delivered, StoreError>;
+
+    /// Keeps what the rows of a step came to, and begins what comes next or ends the job.
+    async fn deliver_fold(&self, claim: &Claim, folded: &Folded, computed: Duration) -> Result<Delivered, StoreError>;
+
+    /// The experiment of a job.
+    async fn experiment(&self, id: Uuid) -> Result<Option<ExperimentRow>, StoreError>;
+
+    /// Packed rows of a step of an experiment from the run `from` on, in order, each with the number of its first run.
+    async fn packed_rows(&self, id: Uuid, step: i64, from: i64, limit: i64) -> Result<Vec<(i64, Vec<u8>)>, StoreError>;
 
     /// Gives a shard back for its next turn: its worker yields or stops, with its state saved.
     async fn release(&self, claim: &Claim) -> Result<(), StoreError>;

@@ -78,6 +78,8 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
             json!({ "id": "2", "event": "state", "data": state.to_string() })
         }
         ("metrics", 200) => json!("# TYPE adaptarm_queue_depth gauge\nadaptarm_queue_depth{state=\"queued\"} 0\n"),
+        ("experiment_schema", 200) => json!({ "title": "ExperimentDocument", "type": "object" }),
+        ("file", 200) => json!("run,point,condition,base,outcome,at_s,index_e_deg\n0,0,nominal,Proposed,completed,,0.0856\n"),
         ("series", 200) => json!("t_s,e_deg_1\n0,0\n0.005,-0.00021\n"),
         _ => return Ok(None),
     }))

@@ -6,6 +6,7 @@ use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
 use crate::error::Problem;
 use crate::openapi::Index;
 use crate::state::AppState;
+use adaptarm_core::experiments::ExperimentDocument;
 use adaptarm_core::robots::ROBOTS;
 use adaptarm_core::scenario::{PRESETS, ScenarioDocument, Scheme, preset as find_preset};
 use axum::Json;
@@ -27,6 +28,7 @@ pub(super) async fn index() -> Json<Value> {
             "robots": "/api/v1/robots",
             "schemes": "/api/v1/schemes",
             "scenario_schema": "/api/v1/schema/scenario",
+            "experiment_schema": "/api/v1/schema/experiment",
             "limits": "/api/v1/limits",
             "jobs": "/api/v1/jobs",
             "openapi": "/api/v1/openapi.json",
@@ -81,6 +83,15 @@ pub(super) async fn schemes() -> Result<Json<Vec<SchemeView>>, Problem> {
 )]
 pub(super) async fn scenario_schema() -> Json<Schema> {
     Json(schemars::schema_for!(ScenarioDocument))
+}
+
+/// The JSON Schema of an experiment.
+#[utoipa::path(
+    get, path = "/api/v1/schema/experiment", operation_id = "experiment_schema", tag = "catalog",
+    responses((status = 200, description = "The schema.", body = Value)),
+)]
+pub(super) async fn experiment_schema() -> Json<Schema> {
+    Json(schemars::schema_for!(ExperimentDocument))
 }
 
 /// Every limit on what can be asked.
