@@ -44,7 +44,10 @@ mod tests {
         let numbers = vec![Some(0.1 + 0.2), None, Some(5e-324), Some(-0.0)];
         let bytes = pack(&numbers).unwrap();
         let back: Vec<Option<f64>> = unpack(&bytes).unwrap();
-        assert_eq!(back.iter().map(|x| x.map(f64::to_bits)).collect::<Vec<_>>(), numbers.iter().map(|x| x.map(f64::to_bits)).collect::<Vec<_>>());
+        assert_eq!(
+            back.iter().map(|x| x.map(f64::to_bits)).collect::<Vec<_>>(),
+            numbers.iter().map(|x| x.map(f64::to_bits)).collect::<Vec<_>>()
+        );
         for end in [0, 10, 40, bytes.len() - 1] {
             assert!(unpack::<Vec<Option<f64>>>(&bytes[..end]).is_err(), "{end} bytes");
         }

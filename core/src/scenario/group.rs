@@ -33,7 +33,8 @@ impl<'a> Group<'a> {
         if let Some(lanes) = fitting_width(members.len()).and_then(in_lanes) {
             return Ok(Self { way: Way::Lanes(lanes) });
         }
-        let resume = |(scenario, snapshot): (&&'a Scenario, &Snapshot)| Ok((*scenario, scenario.resume(snapshot.clone())?));
+        let resume =
+            |(scenario, snapshot): (&&'a Scenario, &Snapshot)| Ok((*scenario, scenario.resume(snapshot.clone())?));
         Ok(Self { way: Way::Alone(members.iter().zip(snapshots).map(resume).collect::<Result<_, _>>()?) })
     }
 

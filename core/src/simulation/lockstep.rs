@@ -87,7 +87,8 @@ impl<T: Scalar> Lanes<T> {
         let identities = snapshots.iter().map(|snapshot| snapshot.identity.clone()).collect();
         let mut lanes = Self::new(identities, system, settings)?;
         // Lanes that nobody hears any more compute what the first does.
-        let source = |lane: usize| if snapshots.get(lane).is_some_and(|it| it.outcome.is_none()) { lane } else { first };
+        let source =
+            |lane: usize| if snapshots.get(lane).is_some_and(|it| it.outcome.is_none()) { lane } else { first };
         for (n, state) in lanes.state.iter_mut().enumerate() {
             *state = T::from_lanes(|lane| snapshots[source(lane)].state[n]);
         }

@@ -2,8 +2,8 @@
 
 use adaptarm_core::lanes;
 use adaptarm_core::scenario::{
-    Group, InitialVelocityDocument, MethodDocument, OutcomeKind, Run, Scenario, ScenarioDocument, Scheme, SchemeDocument,
-    SideBySide, TrajectoryDocument, TrajectoryKind, run_each,
+    Group, InitialVelocityDocument, MethodDocument, OutcomeKind, Run, Scenario, ScenarioDocument, Scheme,
+    SchemeDocument, SideBySide, TrajectoryDocument, TrajectoryKind, run_each,
 };
 use proptest::prelude::*;
 use std::ops::ControlFlow;

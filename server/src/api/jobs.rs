@@ -153,20 +153,15 @@ impl JobRequest {
     /// Reads a request: first its kind, then everything in the form of that kind.
     pub fn read(bytes: &[u8]) -> Result<Self, DocumentError> {
         let Head { kind } = parse(bytes)?;
-        Ok(if kind.is_experiment() {
-            Self::Experiment(Box::new(parse(bytes)?))
-        } else {
-            Self::Study(parse(bytes)?)
-        })
+        Ok(if kind.is_experiment() { Self::Experiment(Box::new(parse(bytes)?)) } else { Self::Study(parse(bytes)?) })
     }
 
     /// Checks everything in it. Takes a while for many scenarios: not for an async task.
     pub fn check(self, limits: &Limits, receivers: &Policy) -> Result<CheckedRequest, StudyError> {
         match self {
             Self::Study(request) => {
-                let work = |spec: StudySpec, _| {
-                    Ok(CheckedWork::Study(Study::new(spec.scenarios, "/spec/scenarios", limits)?))
-                };
+                let work =
+                    |spec: StudySpec, _| Ok(CheckedWork::Study(Study::new(spec.scenarios, "/spec/scenarios", limits)?));
                 request.check(receivers, work)
             }
             Self::Experiment(request) => {

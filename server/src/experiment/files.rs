@@ -81,7 +81,8 @@ impl File {
                 None => return Ok(None),
             },
             (Self::Generations, Found::Search(tuning)) => generations(&tuning.summary(experiment)).into_bytes(),
-            (Self::RunsCsv | Self::RunsParquet, Found::Search(_)) | (Self::Best | Self::Generations, Found::Rows(..)) => {
+            (Self::RunsCsv | Self::RunsParquet, Found::Search(_))
+            | (Self::Best | Self::Generations, Found::Rows(..)) => {
                 return Ok(None);
             }
         }))

@@ -88,7 +88,9 @@ pub(super) fn compute<T>(
 fn name_of(members: &Members) -> String {
     match &members.numbers[..] {
         [number] => format!("scenario {number}"),
-        numbers => format!("one of the scenarios {}", numbers.iter().map(i64::to_string).collect::<Vec<_>>().join(", ")),
+        numbers => {
+            format!("one of the scenarios {}", numbers.iter().map(i64::to_string).collect::<Vec<_>>().join(", "))
+        }
     }
 }
 

@@ -234,7 +234,11 @@ fn learn(experiment: &Experiment, mut tuning: Tuning, step: i64, rows: Vec<Row>)
         summary: text(&summary),
         state: Some(packed::pack(&tuning).map_err(storage)?),
         candidates: Some(summary.candidates as i64),
-        next: if tuning.is_done() { NextStep::End } else { NextStep::Step(planned as i64, shards(experiment, planned)) },
+        next: if tuning.is_done() {
+            NextStep::End
+        } else {
+            NextStep::Step(planned as i64, shards(experiment, planned))
+        },
     })
 }
 

@@ -8,6 +8,7 @@ mod claim;
 mod compute;
 mod engine;
 mod experiment;
+mod new_job;
 mod plan;
 mod queue;
 mod shard;
@@ -19,17 +20,15 @@ mod study;
 mod tests;
 mod upkeep;
 
-pub use claim::{
-    Claim, Delivered, Folded, MadeRuns, NextStep, Order, Part, PartWork, StoredResult, Task, Tick,
-};
+pub use claim::{Claim, Delivered, Folded, MadeRuns, NextStep, Order, Part, PartWork, StoredResult, Task, Tick};
 pub use engine::Engine;
 pub use experiment::{ExperimentJob, read_experiment, read_rows, read_search};
+pub use new_job::{NewExperiment, NewJob, NewScenario, NewWork};
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;
 pub use sql::connect;
 pub use store::{
-    Event, EventKind, ExperimentRow, Filter, JobStore, NewExperiment, NewJob, NewScenario, NewWork, Pulse, ScenarioRow,
-    StoreError, StoredToken, Submitted,
+    Event, EventKind, ExperimentRow, Filter, JobStore, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };
 pub use study::{Study, StudyError};
 pub use upkeep::{Forgotten, collect_garbage};
@@ -165,7 +164,11 @@ impl Job {
         if self.state == JobState::Succeeded {
             return 1.0;
         }
-        // An adaptive method may take more steps than were planned.
-        (self.steps_done as f64 / self.steps_total.max(1) as f64).clamp(0.0, 0.999)
+        // How many steps a tuning will take, nobody knows; an adaptive method may take more than were planned.
+        let (done, total) = match self.kind {
+            JobKind::Tuning => (self.scenarios_done, self.scenarios),
+            _ => (self.steps_done, self.steps_total),
+        };
+        (done as f64 / total.max(1) as f64).clamp(0.0, 0.999)
     }
 }

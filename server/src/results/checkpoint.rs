@@ -56,7 +56,8 @@ mod tests {
         let scenario = Scenario::new(document).unwrap();
         let mut simulation = scenario.start();
         simulation.advance(123);
-        let checkpoint = Checkpoint { numbers: vec![5], snapshots: vec![simulation.snapshot()], ..Checkpoint::default() };
+        let checkpoint =
+            Checkpoint { numbers: vec![5], snapshots: vec![simulation.snapshot()], ..Checkpoint::default() };
         let decoded = Checkpoint::decode(&checkpoint.encode().unwrap()).unwrap();
         assert!(decoded.snapshots_of(&[4]).is_empty() && decoded.snapshots_of(&[5, 6]).is_empty());
         let mut resumed = scenario.resume(decoded.snapshots_of(&[5]).remove(0)).unwrap();

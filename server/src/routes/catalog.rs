@@ -2,7 +2,7 @@
 
 use super::internal;
 use crate::api::Name;
-use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
+use crate::api::catalog::{ExampleView, LimitsView, PresetView, RobotView, SchemeView, examples};
 use crate::error::Problem;
 use crate::openapi::Index;
 use crate::state::AppState;
@@ -28,6 +28,7 @@ pub(super) async fn index() -> Json<Value> {
             "robots": "/api/v1/robots",
             "schemes": "/api/v1/schemes",
             "scenario_schema": "/api/v1/schema/scenario",
+            "experiments": "/api/v1/experiments",
             "experiment_schema": "/api/v1/schema/experiment",
             "limits": "/api/v1/limits",
             "jobs": "/api/v1/jobs",
@@ -55,6 +56,15 @@ pub(super) async fn presets() -> Result<Json<Vec<PresetView>>, Problem> {
 pub(super) async fn preset(Name(id): Name) -> Result<Json<PresetView>, Problem> {
     let preset = find_preset(&id).ok_or_else(|| Problem::not_found("preset", &id))?;
     PresetView::new(preset).map(Json).map_err(internal)
+}
+
+/// Experiments to begin with: those of the manual.
+#[utoipa::path(
+    get, path = "/api/v1/experiments", operation_id = "experiments", tag = "catalog",
+    responses((status = 200, description = "All examples, each with its whole document.", body = [ExampleView])),
+)]
+pub(super) async fn experiments() -> Result<Json<Vec<ExampleView>>, Problem> {
+    examples().map(Json).map_err(internal)
 }
 
 /// Robots, with their parameters.

@@ -2,9 +2,9 @@
 
 use super::internal;
 use super::problems::{database, not_ready};
+use crate::document::brief;
 use crate::download::{Disposition, Download};
 use crate::error::Problem;
-use crate::document::brief;
 use crate::experiment::{File, Found, Picture};
 use crate::jobs::{ExperimentRow, Job, JobState, StoreError, read_experiment, read_rows, read_search};
 use crate::state::AppState;
@@ -54,12 +54,7 @@ pub(super) async fn result(state: &AppState, job: &Job, headers: &HeaderMap) -> 
 }
 
 /// One of its files.
-pub(super) async fn file(
-    state: &AppState,
-    job: &Job,
-    name: &str,
-    headers: &HeaderMap,
-) -> Result<Response, Problem> {
+pub(super) async fn file(state: &AppState, job: &Job, name: &str, headers: &HeaderMap) -> Result<Response, Problem> {
     if !job.kind.is_experiment() {
         let detail = format!("the job is a {}; only experiments have files", job.kind.id());
         return Err(Problem::status(StatusCode::NOT_FOUND, detail));
@@ -152,9 +147,7 @@ impl<T> From<(T, String)> for Failed {
 }
 
 /// Does what takes a processor a while beside the async threads.
-async fn blocking<T: Send + 'static>(
-    work: impl FnOnce() -> Result<T, Failed> + Send + 'static,
-) -> Result<T, Problem> {
+async fn blocking<T: Send + 'static>(work: impl FnOnce() -> Result<T, Failed> + Send + 'static) -> Result<T, Problem> {
     let done = spawn_blocking(work).await.map_err(internal)?;
     done.map_err(|Failed(reason)| database(StoreError::Damaged(reason)))
 }

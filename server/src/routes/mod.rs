@@ -49,6 +49,7 @@ fn operations() -> OpenApiRouter<AppState> {
         .routes(routes!(catalog::schemes))
         .routes(routes!(catalog::scenario_schema))
         .routes(routes!(catalog::experiment_schema))
+        .routes(routes!(catalog::experiments))
         .routes(routes!(catalog::limits))
         .routes(routes!(docs::document))
         .routes(routes!(jobs::submit, jobs::list))

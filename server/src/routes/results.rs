@@ -252,7 +252,10 @@ pub(super) async fn figure(
         return experiments::figure(&state, &job, &name, query.metric, &headers).await;
     }
     if query.metric.is_some() {
-        return Err(Problem::status(StatusCode::BAD_REQUEST, "query: only figures of experiments have the parameter `metric`"));
+        return Err(Problem::status(
+            StatusCode::BAD_REQUEST,
+            "query: only figures of experiments have the parameter `metric`",
+        ));
     }
     let (row, document, report) = find_report(&state, &job, query.scenario).await?;
     let request = FigureRequest::new(&name, &report)?;

@@ -82,7 +82,10 @@ async fn an_experiment_gives_to_the_byte_what_the_core_gives() {
         let said = result.json();
         assert_eq!((&said["format"], &said["complete"]), (&json!("adaptarm.experiment_result/1"), &json!(true)));
         assert_eq!(said["summary"], serde_json::to_value(&summary).unwrap());
-        assert_eq!(app.ask("GET", &format!("{job}/result"), &[("if-none-match", result.header("etag"))]).await.status, 304);
+        assert_eq!(
+            app.ask("GET", &format!("{job}/result"), &[("if-none-match", result.header("etag"))]).await.status,
+            304
+        );
         let file = |name: &str| app.get(&format!("{job}/result/files/{name}")).await;
         assert_eq!(String::from_utf8(file("summary.json").await.body).unwrap(), text(&summary));
         assert_eq!(String::from_utf8(file("experiment.json").await.body).unwrap(), text(experiment.document()));
@@ -92,7 +95,8 @@ async fn an_experiment_gives_to_the_byte_what_the_core_gives() {
         assert_eq!(&file("runs.parquet").await.body[..4], b"PAR1");
         file("best.json").await.problem(404, "/problems/http");
         for figure in said["figures"].as_array().unwrap() {
-            let svg = app.get(&format!("{job}/result/figures/{}.svg?metric=tau_rms_nm", figure.as_str().unwrap())).await;
+            let svg =
+                app.get(&format!("{job}/result/figures/{}.svg?metric=tau_rms_nm", figure.as_str().unwrap())).await;
             assert_eq!((svg.status.as_u16(), svg.header("content-type")), (200, "image/svg+xml"));
         }
         let png = app.get(&format!("{job}/result/figures/boxes.png")).await;
@@ -105,7 +109,8 @@ async fn an_experiment_gives_to_the_byte_what_the_core_gives() {
     assert_eq!(result["figures"], json!(["heat_map", "boxes", "parallel_coordinates"]));
     let problem = app.get(&format!("{job}/result/figures/torques.svg")).await.problem(404, "/problems/http");
     assert!(problem["allowed"].as_str().unwrap().contains("heat_map.svg"), "{problem}");
-    let problem = app.get(&format!("{job}/result/figures/boxes.svg?metric=luck")).await.problem(422, "/problems/unknown");
+    let problem =
+        app.get(&format!("{job}/result/figures/boxes.svg?metric=luck")).await.problem(422, "/problems/unknown");
     assert_eq!(problem["parameter"], "metric");
 }
 
@@ -160,7 +165,10 @@ async fn an_experiment_can_be_read_while_it_runs_and_canceled() {
     let view = app.wait(&job, &["canceled"]).await;
     assert!(view["scenarios_done"].as_i64().unwrap() < 4000);
     let csv = app.get(&format!("{job}/result/files/runs.csv")).await;
-    assert_eq!(String::from_utf8(csv.body).unwrap().lines().count() as i64 - 1, view["scenarios_done"].as_i64().unwrap());
+    assert_eq!(
+        String::from_utf8(csv.body).unwrap().lines().count() as i64 - 1,
+        view["scenarios_done"].as_i64().unwrap()
+    );
 }
 
 #[tokio::test]
@@ -175,12 +183,24 @@ async fn what_is_wrong_is_said_with_its_place() {
     refused(&|body| body["kind"] = json!("tuning"), "/problems/conflict", "/spec/kind").await;
     refused(&|body| body["kind"] = json!("luck"), "/problems/malformed", "/kind").await;
     refused(&|body| body["kind"] = json!("study"), "/problems/malformed", "/spec/bases").await;
-    refused(&|body| body["spec"]["monte_carlo"]["draws"] = json!(0), "/problems/out-of-range", "/spec/monte_carlo/draws").await;
-    refused(&|body| body["spec"]["monte_carlo"]["luck"] = json!(0), "/problems/malformed", "/spec/monte_carlo/luck").await;
+    refused(
+        &|body| body["spec"]["monte_carlo"]["draws"] = json!(0),
+        "/problems/out-of-range",
+        "/spec/monte_carlo/draws",
+    )
+    .await;
+    refused(&|body| body["spec"]["monte_carlo"]["luck"] = json!(0), "/problems/malformed", "/spec/monte_carlo/luck")
+        .await;
     let gains = json!({ "k_v": [-1, 1, 1] });
     let at = "/spec/bases/0/scenario/scheme/gains/k_v/0";
-    refused(&|body| body["spec"]["bases"][0]["scenario"]["scheme"]["gains"] = gains.clone(), "/problems/out-of-range", at).await;
-    refused(&|body| body["spec"]["monte_carlo"]["draws"] = json!(100_001), "/problems/conflict", "/spec/monte_carlo").await;
+    refused(
+        &|body| body["spec"]["bases"][0]["scenario"]["scheme"]["gains"] = gains.clone(),
+        "/problems/out-of-range",
+        at,
+    )
+    .await;
+    refused(&|body| body["spec"]["monte_carlo"]["draws"] = json!(100_001), "/problems/conflict", "/spec/monte_carlo")
+        .await;
     let long = |body: &mut Value| {
         body["spec"]["monte_carlo"]["draws"] = json!(50_000);
         body["spec"]["bases"][0]["scenario"]["integration"]["duration_s"] = json!(12.0 * 1000.0);

@@ -55,9 +55,16 @@ fn documents(size: u32) -> [Value; 4] {
         "plants": { "count": 4, "fields": [arms()], "validation": 8 }, "evaluations": 20 * size, "restarts": 2,
     });
     [
-        document("monte_carlo", json!([base("proposed", 2.0), base("slotine_li", 2.0)]), json!({ "draws": 60 * size, "fields": [arms()] })),
-        document("compare", json!([base("proposed", 300.0), base("slotine_li", 300.0)]),
-            json!({ "conditions": conditions, "draws": 2 * size, "fields": [arms()] })),
+        document(
+            "monte_carlo",
+            json!([base("proposed", 2.0), base("slotine_li", 2.0)]),
+            json!({ "draws": 60 * size, "fields": [arms()] }),
+        ),
+        document(
+            "compare",
+            json!([base("proposed", 300.0), base("slotine_li", 300.0)]),
+            json!({ "conditions": conditions, "draws": 2 * size, "fields": [arms()] }),
+        ),
         document("sweep", json!([base("proposed", 2.0)]), json!({ "design": "grid", "axes": axes })),
         document("tuning", json!([base("proposed", 2.0)]), tuning),
     ]
@@ -82,7 +89,9 @@ fn by_command(document: &Value, threads: &str) -> Result<Files> {
 fn by_http(client: &Client, id: &str) -> Result<Files> {
     let result = client.result(id)?;
     ensure!(result["complete"] == true, "{result}");
-    let names = |list: &str| result[list].as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect::<Vec<_>>();
+    let names = |list: &str| {
+        result[list].as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect::<Vec<_>>()
+    };
     let read = |path: String, name: String| {
         let answer = client.get(&format!("/api/v1/jobs/{id}/result/{path}/{name}"))?;
         answer.expect_status(200)?;
@@ -168,9 +177,8 @@ pub fn workers() -> Result<()> {
     for document in documents(size) {
         // One worker alone, which gets company while it works; then it is killed.
         let id = submit(&client, &document)?;
-        let progressed = |goal: f64| {
-            surely(PATIENCE, || Ok((client.job(&id)?["progress"].as_f64() >= Some(goal)).then_some(())))
-        };
+        let progressed =
+            |goal: f64| surely(PATIENCE, || Ok((client.job(&id)?["progress"].as_f64() >= Some(goal)).then_some(())));
         progressed(0.1)?;
         let second = work()?;
         progressed(0.3)?;

@@ -51,7 +51,8 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, summary:
     }
     let left_out = summary.groups.len().saturating_sub(MOST);
     let more = if left_out > 0 { format!("; {left_out} more are not shown") } else { String::new() };
-    let note = format!("box: middle half; thick line: median; diamond: mean; whiskers: 5 % to 95 %; ticks: extremes{more}");
+    let note =
+        format!("box: middle half; thick line: median; diamond: mean; whiskers: 5 % to 95 %; ticks: extremes{more}");
     pen.text(&note, (frame.left, sheet.whole.bottom - pen.px(14.0)), NOTES, ink, Anchor::Left)
 }
 
@@ -70,7 +71,15 @@ fn draw_box<S: Surface>(
     for (value, height) in [(p05, 0.6), (p95, 0.6), (min, 0.3), (max, 0.3)] {
         pen.curve(&upright(x(value), half * height), line(1.2))?;
     }
-    pen.fill(Frame { left: x(p25).round(), top: middle - half, right: x(p75).round().max(x(p25).round() + 1.0), bottom: middle + half }, (173, 205, 235))?;
+    pen.fill(
+        Frame {
+            left: x(p25).round(),
+            top: middle - half,
+            right: x(p75).round().max(x(p25).round() + 1.0),
+            bottom: middle + half,
+        },
+        (173, 205, 235),
+    )?;
     let (left, right) = (x(p25), x(p75));
     for at in [left, right] {
         pen.curve(&upright(at, half), line(1.2))?;
@@ -80,7 +89,8 @@ fn draw_box<S: Surface>(
     }
     pen.curve(&upright(x(p50), half), line(2.6))?;
     let (at, size) = (x(mean), pen.px(4.0));
-    let corners = [(at, middle - size), (at + size, middle), (at, middle + size), (at - size, middle), (at, middle - size)];
+    let corners =
+        [(at, middle - size), (at + size, middle), (at, middle + size), (at - size, middle), (at, middle - size)];
     for pair in corners.windows(2) {
         pen.curve(&Path::straight(pair[0], pair[1]), Line { color: theme.limit(), dash: Dash(None), width: 1.6 })?;
     }

@@ -74,7 +74,8 @@ pub(super) fn cut<S: Surface>(pen: &Pen<'_, S>, text: &str, size: f64, width: f6
         return text.to_owned();
     }
     let mut short: Vec<char> = text.chars().collect();
-    while short.len() > 1 && pen.text_width(&short.iter().collect::<String>(), size) + pen.text_width("…", size) > width {
+    while short.len() > 1 && pen.text_width(&short.iter().collect::<String>(), size) + pen.text_width("…", size) > width
+    {
         short.pop();
     }
     short.into_iter().chain(['…']).collect()

@@ -1,10 +1,10 @@
 //! How a tuning gets on: the best objective of each generation and the best so far, beside that of the start; and below how
 //! wide it searches. Restarts are dashed lines.
 
+use super::super::legend::draw_legend;
 use super::super::path::{Frame, Path};
 use super::super::style::{Dash, Line};
 use super::super::surface::{Anchor, DrawError, Pen, Surface};
-use super::super::legend::draw_legend;
 use super::Sheet;
 use super::chart::{LABELS, across, extent, padded, say, upwards};
 use crate::experiments::TuningSummary;
@@ -12,7 +12,11 @@ use crate::experiments::TuningSummary;
 /// An objective above so many times the start's is the price of runs that fail: it would flatten all others.
 const HIGHEST: f64 = 3.0;
 
-pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, summary: &TuningSummary) -> Result<(), DrawError> {
+pub(super) fn draw<S: Surface>(
+    pen: &mut Pen<'_, S>,
+    sheet: &Sheet<'_>,
+    summary: &TuningSummary,
+) -> Result<(), DrawError> {
     let Some(start) = summary.start.as_ref().filter(|_| !summary.history.is_empty()) else {
         return say(pen, &sheet.whole, "no generation has been tried yet");
     };
@@ -20,8 +24,14 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, summary:
     let best_line = Line { color: (0, 84, 166), dash: Dash(None), width: 2.2 };
     let generation_line = Line { color: (196, 74, 0), dash: Dash(None), width: 1.2 };
     let start_line = Line::of_reference(theme);
-    let entries = [("best so far", best_line), ("best of the generation", generation_line), ("start", start_line), ("restart", Line::of_limit(theme))];
-    let shown = if summary.history.iter().any(|generation| generation.restart > 0) { &entries[..] } else { &entries[..3] };
+    let entries = [
+        ("best so far", best_line),
+        ("best of the generation", generation_line),
+        ("start", start_line),
+        ("restart", Line::of_limit(theme)),
+    ];
+    let shown =
+        if summary.history.iter().any(|generation| generation.restart > 0) { &entries[..] } else { &entries[..3] };
     let top = draw_legend(pen, sheet.whole.right, shown)?;
     let (left, right) = (pen.px(84.0), sheet.whole.right - pen.px(24.0));
     let middle = top + 0.62 * (sheet.whole.bottom - top);
@@ -39,7 +49,9 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, summary:
     }
     let ceiling = HIGHEST * start.objective.abs();
     let within = generations.iter().chain(&best).map(|(_, value)| *value).filter(|value| *value <= ceiling);
-    let Some(range) = padded(within.chain([start.objective])) else { return say(pen, &sheet.whole, "no objective is a number") };
+    let Some(range) = padded(within.chain([start.objective])) else {
+        return say(pen, &sheet.whole, "no objective is a number");
+    };
     let x_range = (0.0, 1.02 * tried);
     let y = upwards(pen, &upper, range, "objective")?;
     let x = across(pen, &lower, x_range, "candidates tried")?;
@@ -58,11 +70,13 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, summary:
     pen.curve(&Path::straight(at((0.0, start.objective)), at((x_range.1, start.objective))), start_line)?;
     trace(pen, &generations.iter().copied().map(at).collect::<Vec<_>>(), &upper, generation_line)?;
     trace(pen, &best.iter().copied().map(at).collect::<Vec<_>>(), &upper, best_line)?;
-    let widths: Vec<_> = generations.iter().zip(sigmas()).map(|((n, _), sigma)| (x.pixel(*n), wide.pixel(sigma))).collect();
+    let widths: Vec<_> =
+        generations.iter().zip(sigmas()).map(|((n, _), sigma)| (x.pixel(*n), wide.pixel(sigma))).collect();
     trace(pen, &widths, &lower, Line { color: (0, 122, 94), dash: Dash(None), width: 1.6 })?;
     if let Some(validation) = &summary.validation {
-        let text = format!("on plants not used in the search: start {:.4}, best {:.4}", validation.start, validation.best);
-        let place = (right - pen.text_width(&text, LABELS) - pen.px(8.0), upper.top + pen.px(10.0));
+        let text =
+            format!("on plants not used in the search: start {:.4}, best {:.4}", validation.start, validation.best);
+        let place = (right - pen.text_width(&text, LABELS) - pen.px(8.0), upper.top + pen.px(36.0));
         pen.text(&text, place, LABELS, theme.ink(), Anchor::Left)?;
     }
     Ok(())

@@ -52,7 +52,8 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, results:
     scale(pen, sheet, range)?;
     let left_out = count.saturating_sub(MOST);
     let more = if left_out > 0 { format!("; {left_out} more bases are not shown") } else { String::new() };
-    let note = format!("framed: the smallest of each base; crossed out: no number (diverged, refused or not made){more}");
+    let note =
+        format!("framed: the smallest of each base; crossed out: no number (diverged, refused or not made){more}");
     let at = (pen.px(84.0), sheet.whole.bottom - pen.px(12.0));
     pen.text(&note, at, NOTES, pen.style.theme.ink(), Anchor::Left)
 }
@@ -81,7 +82,10 @@ fn map<S: Surface>(
         return say(pen, frame, "no run has been made yet");
     }
     let ink = pen.style.theme.ink();
-    let edge = |from: f64, to: f64, n: usize, of: usize| (from + (to - from) * n as f64 / of as f64).round();
+    // On whole layout pixels, or neighbours would have seams.
+    let grain = pen.px(1.0).max(1.0);
+    let edge =
+        |from: f64, to: f64, n: usize, of: usize| ((from + (to - from) * n as f64 / of as f64) / grain).round() * grain;
     let place = |(at, _): &Cell| {
         let column = xs.partition_point(|x| *x < at[0]);
         let row = ys.partition_point(|y| *y < at[1]);
@@ -116,19 +120,22 @@ fn map<S: Surface>(
     let names = names::fields(sheet.experiment);
     let name = |n: usize| names.get(n).map_or("", String::as_str);
     let every = |count: usize, length: f64, each: f64| (count as f64 * pen.px(each) / length).ceil().max(1.0) as usize;
-    let (across, up) = (every(xs.len(), frame.right - frame.left, 56.0), every(ys.len(), frame.bottom - frame.top, 15.0));
+    let (across, up) =
+        (every(xs.len(), frame.right - frame.left, 56.0), every(ys.len(), frame.bottom - frame.top, 15.0));
     for (n, x) in xs.iter().enumerate().step_by(across) {
-        let at = f64::midpoint(edge(frame.left, frame.right, n, xs.len()), edge(frame.left, frame.right, n + 1, xs.len()));
+        let at =
+            f64::midpoint(edge(frame.left, frame.right, n, xs.len()), edge(frame.left, frame.right, n + 1, xs.len()));
         pen.text(&short(*x), (at, frame.bottom + pen.px(4.0)), TICKS, ink, Anchor::Top)?;
     }
     for (n, y) in ys.iter().enumerate().step_by(up) {
-        let at = f64::midpoint(edge(frame.bottom, frame.top, n, ys.len()), edge(frame.bottom, frame.top, n + 1, ys.len()));
+        let at =
+            f64::midpoint(edge(frame.bottom, frame.top, n, ys.len()), edge(frame.bottom, frame.top, n + 1, ys.len()));
         pen.text(&short(*y), (frame.left - pen.px(5.0), at), TICKS, ink, Anchor::Right)?;
     }
     let middle = f64::midpoint(frame.left, frame.right);
     pen.text(name(0), (middle, frame.bottom + pen.px(20.0)), LABELS, ink, Anchor::Top)?;
     let middle = f64::midpoint(frame.top, frame.bottom);
-    pen.text(name(1), (frame.left - pen.px(78.0), middle), LABELS, ink, Anchor::TurnedTop)
+    pen.text(name(1), (frame.left - pen.px(68.0), middle), LABELS, ink, Anchor::TurnedTop)
 }
 
 fn cross<S: Surface>(pen: &mut Pen<'_, S>, area: &Frame) -> Result<(), DrawError> {
@@ -166,7 +173,9 @@ fn scale<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, range: (f64, f64))
     let at = |share: f64| (bottom + (top - bottom) * share).round();
     for n in 0..BARS {
         let shares = [n as f64 / BARS as f64, (n + 1) as f64 / BARS as f64];
-        let bar = Frame { left, right: left + pen.px(14.0), top: at(shares[1]), bottom: at(shares[0]) };
+        // Each lies over the end of the one below.
+        let bottom = (at(shares[0]) + pen.px(1.0)).min(bottom);
+        let bar = Frame { left, right: left + pen.px(14.0), top: at(shares[1]), bottom };
         pen.fill(bar, shade(f64::midpoint(shares[0], shares[1])))?;
     }
     for share in [0.0, 0.25, 0.5, 0.75, 1.0] {

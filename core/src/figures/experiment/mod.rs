@@ -151,3 +151,158 @@ pub fn experiment_svg(
     let drawn = format!("<svg width=\"{}\" height=\"{}\"", width * UNITS, height * UNITS);
     Ok(document.replacen(&drawn, &format!("<svg width=\"{width}\" height=\"{height}\""), 1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::{
+        AxisDocument, BaseDocument, CompareDocument, ConditionDocument, EXPERIMENT_FORMAT, ExperimentDocument,
+        ExperimentKind, GoalDocument, SettingDocument, SweepDocument, TuningDocument, VariableDocument,
+    };
+    use crate::scenario::Scheme;
+    use std::ops::ControlFlow;
+
+    /// An experiment of short runs; what the document lacks is the caller's.
+    fn experiment(kind: ExperimentKind, bases: &[Scheme], change: impl FnOnce(&mut ExperimentDocument)) -> Experiment {
+        let base = |scheme: &Scheme| {
+            let mut scenario = scheme.paper();
+            (scenario.integration.duration_s, scenario.recording.samples) = (0.05, 10);
+            BaseDocument {
+                name: format!("{} with a name that is rather long to stand beside a figure", scheme.name()),
+                scenario,
+            }
+        };
+        let mut document = ExperimentDocument {
+            format: EXPERIMENT_FORMAT.to_owned(),
+            kind,
+            title: String::new(),
+            seed: 1,
+            confidence: 0.95,
+            bases: bases.iter().map(base).collect(),
+            sweep: None,
+            monte_carlo: None,
+            compare: None,
+            tuning: None,
+        };
+        change(&mut document);
+        Experiment::new(document).unwrap()
+    }
+
+    fn grid() -> Experiment {
+        let axis = |field: &str, values: &[f64]| AxisDocument {
+            field: field.to_owned(),
+            values: Some(values.to_vec()),
+            min: None,
+            max: None,
+            points: None,
+            log: false,
+            relative: false,
+        };
+        // The last value is not allowed: its runs have no numbers.
+        let axes = vec![axis("/scheme/gains/k_v/0", &[10.0, 40.0]), axis("/scheme/gains/beta", &[4.0, 8.0, 1e9])];
+        experiment(ExperimentKind::Sweep, &[Scheme::Proposed], |document| {
+            document.sweep = Some(SweepDocument { design: SweepDesign::Grid, points: None, axes });
+        })
+    }
+
+    fn comparison() -> Experiment {
+        let set = vec![SettingDocument { field: "/plant/friction/width_rad_s".to_owned(), value: 2.0, relative: true }];
+        let condition = |name: &str, set| ConditionDocument { name: name.to_owned(), set };
+        let conditions = vec![condition("as it is", Vec::new()), condition("softer", set)];
+        experiment(ExperimentKind::Compare, &Scheme::ALL, |document| {
+            document.compare = Some(CompareDocument { conditions, draws: 2, fields: Vec::new(), vary_seed: true });
+        })
+    }
+
+    fn rows(experiment: &Experiment) -> Results {
+        let mut results = Results::new();
+        let _ = experiment.run(experiment.plan(0..experiment.runs().unwrap()), |row| {
+            results.insert(experiment, row).unwrap();
+            ControlFlow::Continue(())
+        });
+        results
+    }
+
+    fn drawn(figure: ExperimentFigure, experiment: &Experiment, results: &Results, metric: &str) -> String {
+        let summary = Summary::of(experiment, results);
+        experiment_svg(figure, experiment, Shown::Rows(results, &summary), Some(metric)).unwrap()
+    }
+
+    #[test]
+    fn figures_are_there_with_any_metric_and_without_rows() {
+        for (experiment, count) in [(grid(), 3), (comparison(), 2)] {
+            let results = rows(&experiment);
+            let figures = ExperimentFigure::ALL.into_iter().filter(|figure| figure.shows(&experiment));
+            let figures: Vec<_> = figures.collect();
+            assert_eq!(figures.len(), count);
+            for figure in figures {
+                for metric in experiment_metrics(&experiment) {
+                    assert!(
+                        drawn(figure, &experiment, &results, metric).starts_with("<svg width=\"900\""),
+                        "{figure:?} {metric}"
+                    );
+                }
+                let empty = drawn(figure, &experiment, &Results::new(), METRIC);
+                assert!(empty.contains("no run has this metric") || empty.contains("cannot be ranked"), "{figure:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_heat_map_frames_the_best_and_crosses_out_what_has_no_number() {
+        let experiment = grid();
+        let results = rows(&experiment);
+        let svg = drawn(ExperimentFigure::HeatMap, &experiment, &results, METRIC);
+        let limit = Theme::Light.limit();
+        let red = format!("#{:02X}{:02X}{:02X}", limit.0, limit.1, limit.2);
+        // Two strokes for each of the two refused cells.
+        assert_eq!(svg.matches(&red).count(), 4, "{svg}");
+        let column = experiment.columns().place(METRIC).unwrap();
+        let least = results.rows().filter_map(|row| row.metrics[column]).fold(f64::INFINITY, f64::min);
+        assert!(svg.contains(&chart::short(least)));
+    }
+
+    #[test]
+    fn a_search_is_drawn_at_each_of_its_moments() {
+        let variable = VariableDocument {
+            field: "/scheme/gains/beta".to_owned(),
+            min: 1.0,
+            max: 20.0,
+            log: false,
+            relative: false,
+        };
+        let goal = GoalDocument { metric: METRIC.to_owned(), weight: 1.0, scale: None };
+        let experiment = experiment(ExperimentKind::Tuning, &[Scheme::Proposed], |document| {
+            document.tuning = Some(TuningDocument {
+                variables: vec![variable],
+                objective: vec![goal],
+                constraints: Vec::new(),
+                plants: None,
+                population: Some(4),
+                evaluations: 12,
+                restarts: 0,
+                initial_step: 0.2,
+            });
+        });
+        let mut search = experiment.tuning().unwrap();
+        let mut lengths = Vec::new();
+        loop {
+            let summary = search.summary(&experiment);
+            let svg =
+                experiment_svg(ExperimentFigure::Convergence, &experiment, Shown::Search(&summary), None).unwrap();
+            lengths.push(svg.len());
+            if search.is_done() {
+                break;
+            }
+            let mut rows = Vec::new();
+            let _ = experiment.run(search.plan(&experiment), |row| {
+                rows.push(row);
+                ControlFlow::Continue(())
+            });
+            search.tell(&experiment, rows).unwrap();
+        }
+        assert!(lengths.len() > 4 && lengths[0] == lengths[1] && lengths[1] < *lengths.last().unwrap(), "{lengths:?}");
+        let (kind, other) = (ExperimentFigure::Convergence, comparison());
+        assert!(kind.shows(&experiment) && !kind.shows(&other));
+    }
+}

@@ -18,10 +18,13 @@ pub(super) fn metric(name: &str) -> String {
         ("settling_de_s", "settling time of the velocity error [s]"),
     ];
     let known = KNOWN.iter().find(|(id, _)| name.strip_prefix(id).is_some_and(|rest| is_joint(rest)));
-    known.map_or_else(|| name.to_owned(), |(id, words)| match name[id.len()..].strip_prefix('_') {
-        Some(joint) => format!("{words}, joint {joint}"),
-        None => (*words).to_owned(),
-    })
+    known.map_or_else(
+        || name.to_owned(),
+        |(id, words)| match name[id.len()..].strip_prefix('_') {
+            Some(joint) => format!("{words}, joint {joint}"),
+            None => (*words).to_owned(),
+        },
+    )
 }
 
 fn is_joint(rest: &str) -> bool {
@@ -35,7 +38,8 @@ pub(super) fn field(pointer: &str, relative: bool) -> String {
     let is_number = last.bytes().all(|byte| byte.is_ascii_digit());
     let (name, index) = if is_number { (parts.next().unwrap_or(""), Some(last)) } else { (last, None) };
     let gains = Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS).flat_map(|scheme| scheme.gains());
-    let unit = gains.filter(|_| pointer.starts_with("/scheme/gains/")).find(|gain| gain.name == name).map(|gain| gain.unit);
+    let unit =
+        gains.filter(|_| pointer.starts_with("/scheme/gains/")).find(|gain| gain.name == name).map(|gain| gain.unit);
     let index = index.map(|index| format!("[{index}]")).unwrap_or_default();
     match unit.filter(|unit| !unit.is_empty()) {
         _ if relative => format!("{name}{index} [× base]"),

@@ -13,6 +13,8 @@ use crate::scalar::logarithm;
 const MOST: usize = 1500;
 /// Most fields; what is beyond is left out, and said.
 const FIELDS: usize = 12;
+/// More fields than this need two rows of names.
+const CROWDED: usize = 6;
 /// Of how many lines one counts as good.
 const GOOD: usize = 10;
 
@@ -37,7 +39,7 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, results:
         left: pen.px(60.0),
         top: pen.px(44.0),
         right: sheet.whole.right - pen.px(70.0),
-        bottom: sheet.whole.bottom - pen.px(62.0),
+        bottom: sheet.whole.bottom - pen.px(74.0),
     };
     let ranges: Vec<_> = (0..=fields).map(|n| extent(lines.iter().map(|line| line[n])).unwrap_or((0.0, 1.0))).collect();
     let x = |n: usize| frame.left + (frame.right - frame.left) * n as f64 / fields as f64;
@@ -55,7 +57,9 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, results:
     }
     axes(pen, sheet, &frame, &ranges, &x)?;
     let more = if all > fields { format!("; {} more fields are not shown", all - fields) } else { String::new() };
-    let note = format!("{} runs; dark: the best tenth by the last axis, whose smallest values are at the bottom{more}", lines.len());
+    let metric = names::metric(sheet.metric);
+    let note =
+        format!("{} runs; dark: the tenth with the smallest {metric}; wide ranges by decades{more}", lines.len());
     pen.text(&note, (frame.left, sheet.whole.bottom - pen.px(14.0)), NOTES, pen.style.theme.ink(), Anchor::Left)
 }
 
@@ -86,10 +90,11 @@ fn axes<S: Surface>(
         pen.hairline((at, frame.top), (at, frame.bottom), ink)?;
         pen.text(&short(*low), (at, frame.bottom + pen.px(4.0)), TICKS, ink, Anchor::Top)?;
         pen.text(&short(*high), (at, frame.top - pen.px(16.0)), TICKS, ink, Anchor::Top)?;
-        // Neighbours' names stand above and below each other in turn.
+        // Where there are many, neighbours' names stand above and below each other in turn.
         let name = if n == last { sheet.metric.to_owned() } else { fields.get(n).cloned().unwrap_or_default() };
-        let name = cut(pen, &name, TICKS, 1.9 * room);
-        let below = if n % 2 == 0 { 18.0 } else { 31.0 };
+        let crowded = last > CROWDED;
+        let name = cut(pen, &name, TICKS, if crowded { 1.9 } else { 0.95 } * room);
+        let below = if crowded && n % 2 == 1 { 32.0 } else { 19.0 };
         pen.text(&name, (at, frame.bottom + pen.px(below)), TICKS, ink, Anchor::Top)?;
     }
     Ok(())

@@ -44,7 +44,8 @@ enum Stopped {
 pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
     let began = Instant::now();
     let now = Instant::now();
-    let mut worker = Worker { shared, claim, counted: claim.steps_done, began, since_tick: now, told: now, saved: false };
+    let mut worker =
+        Worker { shared, claim, counted: claim.steps_done, began, since_tick: now, told: now, saved: false };
     let worked = match &claim.task {
         Task::Scenarios(scenarios) => worker.study(scenarios).await,
         Task::Part(part) => match &part.work {
@@ -105,7 +106,9 @@ impl Worker<'_> {
 
     /// Forgets it, once the shard is done.
     async fn discard(&self) {
-        if self.saved && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await {
+        if self.saved
+            && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await
+        {
             tracing::warn!(job = %self.claim.job, "cannot remove a checkpoint that is done with: {error}");
         }
     }
@@ -126,7 +129,8 @@ impl Worker<'_> {
             // Nobody listens any more where the runtime has ended.
             let _ = sender.send(done.unwrap_or_else(|panic| Err((FailureReason::Panicked, words(&*panic).to_owned()))));
         });
-        let silent = |_| Stopped::Failed(FailureReason::Panicked, "the computing thread ended without a word".to_owned());
+        let silent =
+            |_| Stopped::Failed(FailureReason::Panicked, "the computing thread ended without a word".to_owned());
         let done = self.alive(receiver).await?.map_err(silent)?;
         done.map_err(|(kind, reason)| Stopped::Failed(kind, reason))
     }

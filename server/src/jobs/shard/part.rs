@@ -122,8 +122,7 @@ impl Worker<'_> {
         let step = part.step;
         let folded = self.on_pool(move || fold(&work, step, &packed)).await?;
         let computed = self.computed();
-        let delivered =
-            retry(self.shared, || self.shared.store.deliver_fold(self.claim, &folded, computed)).await;
+        let delivered = retry(self.shared, || self.shared.store.deliver_fold(self.claim, &folded, computed)).await;
         match delivered.map_err(Stopped::Unreachable)? {
             Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
             _ => Ok(()),

@@ -9,8 +9,8 @@ use super::{Connection, Pool, begin, now};
 use crate::jobs::plan::Shard;
 use crate::jobs::store::EventKind;
 use crate::jobs::{
-    Claim, Delivered, ExperimentRow, Folded, JobKind, JobState, MadeRuns, NewExperiment, NextStep, Order, Part, PartWork,
-    StoreError, Tick,
+    Claim, Delivered, ExperimentRow, Folded, JobKind, JobState, MadeRuns, NewExperiment, NextStep, Order, Part,
+    PartWork, StoreError, Tick,
 };
 use sqlx::Row;
 use std::time::Duration;
@@ -131,8 +131,7 @@ async fn count(
 
 /// Removes the shard of a claim that still holds; whether it does.
 async fn done(connection: &mut Connection, claim: &Claim) -> Result<bool, StoreError> {
-    let forward =
-        Tick { steps_done: 0, steps_before: 0, computed: Duration::ZERO, saved: true, turn_over: false };
+    let forward = Tick { steps_done: 0, steps_before: 0, computed: Duration::ZERO, saved: true, turn_over: false };
     if !fenced(connection, claim, forward, None).await? {
         return Ok(false);
     }
