@@ -23,6 +23,7 @@ pub mod laboratory;
 pub mod listener;
 pub mod metrics;
 pub mod openapi;
+mod packed;
 pub mod replicate;
 pub mod results;
 pub mod router;

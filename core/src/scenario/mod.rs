@@ -9,6 +9,7 @@ mod build_trajectory;
 mod document;
 mod error;
 mod gains;
+mod group;
 mod presets;
 mod report;
 mod robot_defaults;
@@ -34,9 +35,10 @@ pub use gains::{
     ComputedTorqueGains, GainInfo, GainSet, GainShape, ModelParameters, PdGains, PdGravityGains, ProjectionBounds,
     ProposedGains, SlotineLiGains, TangArteagaGains,
 };
+pub use group::{Group, groups, run_each};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
-pub use side_by_side::{SideBySide, run_each};
+pub use side_by_side::SideBySide;
 pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;
