@@ -11,7 +11,9 @@
 pub mod adaptation;
 pub mod control;
 pub mod decomposition;
+pub mod diagnostics;
 pub mod dynamics;
+mod eigen;
 pub mod effects;
 pub mod experiments;
 #[cfg(feature = "figures")]

@@ -1,6 +1,6 @@
 //! Any adaptation law, chosen when the program runs; also none, for yardsticks whose θ̂ is given.
 
-use super::{AdaptationInput, AdaptationLaw, CompositeAdaptation, GradientAdaptation, LeastSquaresAdaptation};
+use super::{AdaptationInput, AdaptationLaw, CompositeAdaptation, CompositeLaw, GradientAdaptation, LeastSquaresAdaptation};
 use crate::robots::Robot;
 use crate::scalar::Scalar;
 use nalgebra::SVector;
@@ -16,6 +16,19 @@ pub enum AnyAdaptation<R, T, const N: usize, const P: usize> {
     Composite(CompositeAdaptation<R, T, N, P>),
     /// Least squares with bounded-gain forgetting.
     LeastSquares(LeastSquaresAdaptation<R, T, N, P>),
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AnyAdaptation<R, T, N, P> {
+    /// Diagonal of the Γ that weighs parameter errors in the scheme's Lyapunov function; `None` where there is no such constant.
+    pub fn lyapunov_gain(&self) -> Option<SVector<T, P>> {
+        match self {
+            Self::Gradient(law) => Some(law.gain),
+            Self::Composite(law) => Some(match &law.law {
+                CompositeLaw::Additive { gain, .. } | CompositeLaw::Projected { gain, .. } => *gain,
+            }),
+            Self::None | Self::LeastSquares(_) => None,
+        }
+    }
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R, T, N, P>

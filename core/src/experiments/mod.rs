@@ -7,7 +7,6 @@
 mod cmaes;
 mod distribution;
 mod document;
-mod eigen;
 mod experiment;
 mod fields;
 mod latin;

@@ -40,6 +40,7 @@ pub use side_by_side::{SideBySide, run_each};
 pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;
+use crate::diagnostics::{Diagnostics, Trace, diagnose};
 use crate::metrics::Metrics;
 use crate::recording::Recording;
 use crate::robots::{RobotData, for_robot};
@@ -261,6 +262,14 @@ impl Scenario {
     /// The torques of a recording of this scenario, split into what they are spent on.
     pub fn torque_parts(&self, recording: &Recording) -> TorqueParts {
         build::torque_parts(&self.document, self.robot, recording)
+    }
+
+    /// What a recording of this scenario tells about excitation, stability, energy: numbers, and curves over its rows.
+    pub fn diagnose(&self, recording: &Recording) -> (Diagnostics, Trace) {
+        let samples = self.settings().samples;
+        for_robot!(self.robot, R, N, P => {
+            diagnose(&beyond::build::imperfect_loop::<R, N, P>(&self.document), recording, samples)
+        })
     }
 
     /// How long, how fine, what is kept.

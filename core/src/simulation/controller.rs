@@ -42,6 +42,11 @@ pub(super) struct Action<R: Robot<N, P>, T: Scalar, const N: usize, const P: usi
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T, N, P> {
+    /// Whether its estimates move.
+    pub(crate) fn adapts(&self) -> bool {
+        !matches!(self.adaptation, AnyAdaptation::None)
+    }
+
     /// Number of states.
     pub(super) fn states(&self) -> usize {
         self.theta_hat() + P + self.adaptation.states()

@@ -2,6 +2,7 @@
 
 mod beyond;
 mod convergence;
+mod diagnostics;
 mod documents;
 mod dual;
 mod experiments;

@@ -20,11 +20,18 @@ use std::cell::RefCell;
 pub(in crate::scenario) fn closed_loop<R: Robot<N, P>, const N: usize, const P: usize>(
     document: &ScenarioDocument,
 ) -> Box<dyn StateSpace<f64>> {
+    Box::new(imperfect_loop::<R, N, P>(document))
+}
+
+/// The same with all its parts in sight; also of a document that asks for nothing beyond the paper.
+pub(in crate::scenario) fn imperfect_loop<R: Robot<N, P>, const N: usize, const P: usize>(
+    document: &ScenarioDocument,
+) -> ImperfectLoop<R, N, P> {
     let none = EffectsDocument::default();
     let effects = document.effects.as_ref().unwrap_or(&none);
     let theta = SVector::from_column_slice(&build::theta(document, R::DATA));
     let plant = Plant::new(theta, build::friction_sign(&[document]));
-    Box::new(ImperfectLoop::<R, N, P> {
+    ImperfectLoop::<R, N, P> {
         controller: controller(document, effects, &plant),
         plant,
         trajectory: Remembered::new(trajectory::<R, f64, N, P>(&[document])),
@@ -42,7 +49,7 @@ pub(in crate::scenario) fn closed_loop<R: Robot<N, P>, const N: usize, const P: 
         actuator: actuator::<R, N, P>(effects),
         load: load::<R, N, P>(effects),
         work: RefCell::new(Vec::new()),
-    })
+    }
 }
 
 fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
