@@ -175,11 +175,6 @@ pub(super) fn friction_sign<T: Scalar>(documents: &[&ScenarioDocument]) -> Frict
     FrictionSign::from_widths(|lane| Lanes(documents).of(lane).plant.friction.width_rad_s)
 }
 
-/// Whether friction jumps at rest.
-pub(super) fn is_true_sign(document: &ScenarioDocument) -> bool {
-    document.plant.friction.width_rad_s == 0.0
-}
-
 /// True parameters of the simulated arm: the robot's, scaled.
 pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> {
     let mut theta = robot.theta();

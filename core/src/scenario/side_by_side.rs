@@ -7,6 +7,7 @@ use crate::lanes::{self, WithLanes};
 use crate::robots::for_robot;
 use crate::scalar::Scalar;
 use crate::simulation::{Lanes, Lockstep};
+use std::mem::discriminant;
 use std::ops::ControlFlow;
 
 /// Scenarios under way side by side.
@@ -41,9 +42,9 @@ impl Scenario {
             && self.robot.id == other.robot.id
             && self.scheme() == other.scheme()
             && settings == others
-            && settings.steps_on_grid().is_some()
+            && settings.steps_per_sample().is_some()
             && a.initial.velocity == b.initial.velocity
-            && build::is_true_sign(a) == build::is_true_sign(b)
+            && discriminant(&build::friction_sign::<f64>(&[a])) == discriminant(&build::friction_sign::<f64>(&[b]))
             && build_trajectory::run_beside(self.robot, a, b)
     }
 }

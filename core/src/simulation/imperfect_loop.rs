@@ -9,6 +9,7 @@ use super::controller::{Action, Controller};
 use super::{InitialVelocity, StateSpace};
 use crate::dynamics::Plant;
 use crate::effects::{Actuator, Load, SampledControl, Sensing};
+use crate::recording::write_row;
 use crate::robots::Robot;
 use crate::trajectories::{Desired, Remembered};
 use nalgebra::SVector;
@@ -104,12 +105,7 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> ImperfectLoop<R, N, P> {
         let position = vector::<N>(x);
         let blocks =
             [position - desired.position, vector::<N>(&x[N..]) - desired.velocity, z, self.actuate(&command), position];
-        let (joints, rest) = row.split_at_mut(blocks.len() * N);
-        for (out, block) in joints.chunks_exact_mut(N).zip(&blocks) {
-            out.copy_from_slice(block.as_slice());
-        }
-        rest[..P].copy_from_slice(self.theta_hat(x));
-        rest[P..].copy_from_slice(s.as_slice());
+        write_row(row, &blocks, self.theta_hat(x), &s);
     }
 
     /// Measures, computes a command, and takes the controller's states one period on.

@@ -1,4 +1,5 @@
 //! The core's tests from outside: reference data, the laws of mechanics, resumption, bad documents. One binary.
+#![allow(clippy::disallowed_methods, reason = "the platform's functions are what tests compare with")]
 
 mod beyond;
 mod convergence;
