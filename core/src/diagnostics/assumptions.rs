@@ -80,6 +80,7 @@ pub(super) fn violations<R: Robot<N, P>, const N: usize, const P: usize>(
         "exact_measurement",
         "encoders count or sensors are noisy",
     );
+    list.throughout(system.elasticity.is_none(), "rigid_joints", "joints are elastic: motors and links move apart");
     list.throughout(system.load.stribeck.is_none(), "modelled_friction", "friction has a part that the model lacks");
     list.at_times(pass.saturated, "unlimited_torque", "a torque is at its limit", Vec::new());
     list.at_times(pass.loaded, "constant_parameters", "a payload or a disturbance acts", Vec::new());

@@ -4,7 +4,6 @@
 //! (Narendra and Annaswamy 1987). Here the matrix has relative parameters as coordinates (`gram`).
 
 use super::gram::{Blocks, Gram};
-use super::scales;
 use crate::eigen::symmetric_eigen;
 use crate::robots::RobotData;
 use serde::Serialize;
@@ -102,7 +101,7 @@ pub(super) fn measure(blocks: &Blocks, robot: &RobotData, curve: &mut dyn FnMut(
 /// A basis of the unexcited directions in which each belongs to a parameter that no other contains, so that it reads as plainly as it can:
 /// reduced by rows, the largest entry first. Weights are relative changes.
 fn combinations(mut basis: Vec<Vec<f64>>, gram: &Gram, robot: &RobotData) -> Vec<Combination> {
-    let p = scales(robot).len();
+    let p = robot.parameter_count();
     for n in 0..basis.len() {
         let pivots = (n..basis.len()).flat_map(|row| (0..p).map(move |column| (row, column)));
         let largest = |a: &(usize, usize), b: &(usize, usize)| basis[a.0][a.1].abs().total_cmp(&basis[b.0][b.1].abs());

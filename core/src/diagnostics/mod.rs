@@ -19,7 +19,7 @@ pub use parameter_error::{ErrorNorms, ParameterErrorSummary};
 
 use crate::metrics::{TAIL_SHARE, settling_time_s, sign_changes, total_variation, ultimate_bound};
 use crate::recording::{Recording, Signal};
-use crate::robots::{Robot, RobotData};
+use crate::robots::Robot;
 use crate::simulation::ImperfectLoop;
 use pass::Pass;
 use serde::Serialize;
@@ -204,9 +204,4 @@ fn chatter(recording: &Recording, samples: usize) -> Chatter {
             sign_changes(increments) as f64
         }),
     }
-}
-
-/// Scale of each parameter: its nominal size, or 1 where that is zero. Relative errors are errors over it.
-fn scales(robot: &RobotData) -> Vec<f64> {
-    robot.parameters.iter().map(|parameter| if parameter.value == 0.0 { 1.0 } else { parameter.value.abs() }).collect()
 }

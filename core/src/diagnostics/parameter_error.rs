@@ -5,7 +5,7 @@
 
 use super::excitation::{UNEXCITED, directions};
 use super::gram::Gram;
-use super::{Trace, Traced, scales};
+use super::{Trace, Traced};
 use crate::recording::{Recording, Signal};
 use crate::robots::RobotData;
 use serde::Serialize;
@@ -42,7 +42,7 @@ pub(super) fn split(
 ) -> ParameterErrorSummary {
     let directions = directions(gram, theta.len());
     let most = directions.last().map_or(0.0, |pair| pair.0);
-    let scales = scales(robot);
+    let scales = robot.parameter_sizes();
     let columns = recording.columns();
     let mut summary = ParameterErrorSummary { start: ErrorNorms::default(), end: ErrorNorms::default() };
     for (row, numbers) in recording.rows().chunks_exact(columns.width()).enumerate() {

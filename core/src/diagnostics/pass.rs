@@ -3,7 +3,6 @@
 //! The velocity is `q̇ = q̇_d + ė`, the acceleration follows from the forward dynamics with all that acts on the arm. Sees the true arm.
 
 use super::gram::Blocks;
-use super::scales;
 use crate::adaptation::{AnyAdaptation, CompositeLaw};
 use crate::control::{AnyFeedback, LinearFeedback, LinearModel, SlidingFeedback};
 use crate::dynamics::Plant;
@@ -86,7 +85,7 @@ impl Pass {
         recording: &Recording,
     ) -> Self {
         let rows = recording.len();
-        let is_rigid = true;
+        let is_rigid = system.elasticity.is_none();
         let mut pass = Self {
             times_s: recording.times_s().collect(),
             desired: Blocks::new(P, rows),
@@ -98,7 +97,7 @@ impl Pass {
             saturated: Events::default(),
             loaded: Events::default(),
         };
-        let scales = scales(R::DATA);
+        let scales = R::DATA.parameter_sizes();
         let mut before: Option<[Vec<f64>; 2]> = None;
         let mut start = None;
         for (n, numbers) in recording.rows().chunks_exact(recording.columns().width()).enumerate() {

@@ -21,8 +21,8 @@ mod validate;
 mod validate_trajectory;
 
 pub use beyond::{
-    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
-    StribeckDocument, VelocityDocument, VelocityKind,
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
+    PayloadDocument, SamplingDocument, StribeckDocument, VelocityDocument, VelocityKind,
 };
 pub use document::{
     ElbowDocument, FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument,
@@ -200,10 +200,17 @@ impl Scenario {
         let (document, robot) = validate::resolve(document)?;
         let scenario = Self { document, robot };
         let theta = scenario.theta();
-        if theta != robot.theta() && !build::has_positive_inertia(robot, &theta) {
+        if theta != robot.theta() && !build::has_positive_inertia(robot, &theta, None) {
             let message =
                 "gives an inertia matrix that is not positive definite everywhere: no such arm exists".to_owned();
             return Err(ScenarioError::new("/plant/theta_scale", Problem::Conflict { message }));
+        }
+        let elasticity = scenario.document.effects.as_ref().and_then(|effects| effects.elasticity.as_ref());
+        if let Some(motors) = elasticity.map(|elasticity| &elasticity.motor_inertia_kgm2)
+            && !build::has_positive_inertia(robot, &theta, Some(motors))
+        {
+            let message = "is more than the arm's inertia everywhere allows: nothing would be left of the links".to_owned();
+            return Err(ScenarioError::new("/effects/elasticity/motor_inertia_kgm2", Problem::Conflict { message }));
         }
         Ok(scenario)
     }

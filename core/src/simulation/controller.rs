@@ -101,6 +101,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
         Action { geometry, sign_estimate, estimate, sliding, regressor, command }
     }
 
+    /// Lets a law that remembers moments look at this one.
+    pub(super) fn record(&self, action: &Action<R, T, N, P>, states: &mut [T]) {
+        if let AnyAdaptation::Concurrent(law) = &self.adaptation {
+            let law_at = self.theta_hat() + P;
+            law.record(&action.geometry, &action.estimate.velocity, &mut states[law_at..]);
+        }
+    }
+
     /// The states' derivative at the instant of an action.
     #[inline(always)]
     pub(super) fn derivative(&self, action: &Action<R, T, N, P>, states: &[T], rate: &mut [T]) {

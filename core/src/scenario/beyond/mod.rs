@@ -9,8 +9,8 @@ mod resolve;
 mod schema;
 
 pub use document::{
-    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
-    StribeckDocument, VelocityDocument, VelocityKind,
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
+    PayloadDocument, SamplingDocument, StribeckDocument, VelocityDocument, VelocityKind,
 };
 pub(super) use resolve::resolve;
 
