@@ -33,6 +33,12 @@ pub struct Metrics {
     pub settling_e_s: Vec<Option<f64>>,
     /// Time after which `|ė|` stays within [`SETTLING_BAND_DEG_S`], s; null where it never does.
     pub settling_de_s: Vec<Option<f64>>,
+    /// Ultimate bound: largest `|e|` over the last [`TAIL_SHARE`] of the run, deg; empty in reports of versions that did not know it.
+    #[serde(default)]
+    pub ultimate_bound_e_deg: Vec<f64>,
+    /// Total variation of the torque per second, N·m/s; likewise.
+    #[serde(default)]
+    pub tau_variation_nm_s: Vec<f64>,
 }
 
 /// Performance index `I(x) = sqrt(1/k Σ_{i<k} x_i²)`; zero without samples. Source: paper section 4.3.
@@ -117,6 +123,11 @@ impl Metrics {
             control_effort_n2m2s: tau_rms_nm.iter().map(|tau| tau * tau * recorded_s).collect(),
             settling_e_s: settling(Signal::Error, SETTLING_BAND_DEG),
             settling_de_s: settling(Signal::ErrorRate, SETTLING_BAND_DEG_S),
+            ultimate_bound_e_deg: per_joint(&|joint| ultimate_bound(signal(Signal::Error, joint), TAIL_SHARE).to_degrees()),
+            tau_variation_nm_s: per_joint(&|joint| {
+                let variation = total_variation(signal(Signal::Torque, joint));
+                if recorded_s > 0.0 { variation / recorded_s } else { 0.0 }
+            }),
             tau_peak_nm,
             tau_rms_nm,
         }

@@ -29,6 +29,15 @@ pub(super) fn write_tuning(
     if let Some(best) = tuning.best_scenario(experiment) {
         save_json(&folder.join("best.json"), best.document())?;
     }
+    if let Some(front) = &summary.front {
+        let names = front.objectives.iter().chain(&summary.variables).map(|name| cell(name));
+        let mut text = names.collect::<Vec<_>>().join(",") + "\n";
+        for candidate in &front.candidates {
+            let numbers = candidate.objectives.iter().chain(&candidate.values).map(|number| format!("{number:?}"));
+            text += &(numbers.collect::<Vec<_>>().join(",") + "\n");
+        }
+        replace(&folder.join("front.csv"), text.as_bytes())?;
+    }
     let mut text = "generation,restart,population,best,sigma\n".to_owned();
     for (n, generation) in summary.history.iter().enumerate() {
         let (restart, population) = (generation.restart, generation.population);
