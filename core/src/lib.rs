@@ -12,7 +12,9 @@
 pub mod adaptation;
 pub mod control;
 pub mod decomposition;
+pub mod diagnostics;
 pub mod dynamics;
+mod eigen;
 pub mod effects;
 pub mod exercises;
 pub mod experiments;

@@ -163,16 +163,16 @@ impl Recording {
     }
 
     /// Sample times, s.
-    pub fn times_s(&self) -> impl DoubleEndedIterator<Item = f64> + Clone + '_ {
+    pub fn times_s(&self) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.column(0)
     }
 
     /// One component of a signal (0 is the first), SI units.
-    pub fn signal(&self, signal: Signal, component: usize) -> impl DoubleEndedIterator<Item = f64> + Clone + '_ {
+    pub fn signal(&self, signal: Signal, component: usize) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.column(self.columns.start(signal) + component)
     }
 
-    fn column(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> + Clone + '_ {
+    fn column(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.rows.chunks_exact(self.columns.width()).map(move |row| row[column])
     }
 

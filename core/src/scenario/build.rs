@@ -193,9 +193,12 @@ pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recor
     })
 }
 
-/// Whether an arm with these parameters can exist.
-pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64]) -> bool {
-    for_robot!(robot, R, N, P => dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta)))
+/// Whether an arm with these parameters can exist, also with `less` (kg·m² per joint) taken off its inertia.
+pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64], less: Option<&[f64]>) -> bool {
+    for_robot!(robot, R, N, P => {
+        let less = less.map_or_else(SVector::zeros, SVector::from_column_slice);
+        dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta), &less)
+    })
 }
 
 /// How long, how fine, what to keep.

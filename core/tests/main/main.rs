@@ -3,14 +3,17 @@
 
 mod beyond;
 mod convergence;
+mod diagnostics;
 mod documents;
 mod dual;
+mod elasticity;
 mod exercises;
 mod experiments;
 mod imperfections;
 mod integral_and_signs;
 mod lanes;
 mod laws;
+mod learning;
 mod reference;
 mod replication;
 mod resumption;
