@@ -7,6 +7,7 @@ use crate::lanes::{self, WithLanes};
 use crate::robots::for_robot;
 use crate::scalar::Scalar;
 use crate::simulation::{Lanes, Lockstep, Snapshot};
+use std::mem::discriminant;
 
 /// Scenarios under way side by side.
 pub struct SideBySide<'a> {
@@ -44,9 +45,9 @@ impl Scenario {
             && self.robot.id == other.robot.id
             && self.scheme() == other.scheme()
             && settings == others
-            && settings.steps_on_grid().is_some()
+            && settings.steps_per_sample().is_some()
             && a.initial.velocity == b.initial.velocity
-            && build::is_true_sign(a) == build::is_true_sign(b)
+            && discriminant(&build::friction_sign::<f64>(&[a])) == discriminant(&build::friction_sign::<f64>(&[b]))
             && build_trajectory::run_beside(self.robot, a, b)
     }
 }

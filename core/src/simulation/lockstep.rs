@@ -56,7 +56,7 @@ struct End {
 impl<T: Scalar> Lanes<T> {
     /// Runs at their start, `identities` naming them; `None` where samples do not fall on steps.
     pub fn new(identities: Vec<String>, system: Box<dyn StateSpace<T>>, settings: Settings) -> Option<Self> {
-        let every = settings.steps_on_grid()?;
+        let every = settings.steps_per_sample()?;
         let len = system.len();
         let zeros = |len| vec![T::zero(); len];
         let mut state = zeros(len);

@@ -1,11 +1,11 @@
 //! What an experiment leaves, on disk or over HTTP: the experiment with everything filled in, `summary.json`, a row per run as
-//! CSV and Parquet; of a tuning, the best scenario and its generations.
+//! CSV and Parquet; of a tuning, the best scenario, its generations and its Pareto front.
 
 use super::Picture;
 use super::checkpoint::replace;
 use crate::figures::PictureFormat;
 use crate::series::parquet;
-use adaptarm_core::experiments::{Experiment, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
+use adaptarm_core::experiments::{Experiment, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -35,6 +35,8 @@ pub enum File {
     Best,
     /// A tuning's generations, as text.
     Generations,
+    /// A tuning's Pareto front, as text.
+    Front,
 }
 
 impl File {
@@ -43,7 +45,7 @@ impl File {
         if experiment.runs().is_some() {
             &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet]
         } else {
-            &[Self::Experiment, Self::Summary, Self::Best, Self::Generations]
+            &[Self::Experiment, Self::Summary, Self::Best, Self::Generations, Self::Front]
         }
     }
 
@@ -56,6 +58,7 @@ impl File {
             Self::RunsParquet => "runs.parquet",
             Self::Best => "best.json",
             Self::Generations => "generations.csv",
+            Self::Front => "front.csv",
         }
     }
 
@@ -63,7 +66,7 @@ impl File {
     pub const fn media_type(self) -> &'static str {
         match self {
             Self::Experiment | Self::Summary | Self::Best => "application/json",
-            Self::RunsCsv | Self::Generations => "text/csv; charset=utf-8; header=present",
+            Self::RunsCsv | Self::Generations | Self::Front => "text/csv; charset=utf-8; header=present",
             Self::RunsParquet => "application/vnd.apache.parquet",
         }
     }
@@ -81,8 +84,12 @@ impl File {
                 None => return Ok(None),
             },
             (Self::Generations, Found::Search(tuning)) => generations(&tuning.summary(experiment)).into_bytes(),
+            (Self::Front, Found::Search(tuning)) => match &tuning.summary(experiment).front {
+                Some(front) => front_table(front, &tuning.summary(experiment).variables).into_bytes(),
+                None => return Ok(None),
+            },
             (Self::RunsCsv | Self::RunsParquet, Found::Search(_))
-            | (Self::Best | Self::Generations, Found::Rows(..)) => {
+            | (Self::Best | Self::Generations | Self::Front, Found::Rows(..)) => {
                 return Ok(None);
             }
         }))
@@ -112,6 +119,17 @@ fn generations(summary: &TuningSummary) -> String {
         let (restart, population) = (generation.restart, generation.population);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{},{restart},{population},{:?},{:?}", n + 1, generation.best, generation.sigma);
+    }
+    text
+}
+
+/// A row per candidate that no other beats in every objective.
+fn front_table(front: &Front, variables: &[String]) -> String {
+    let names = front.objectives.iter().chain(variables).map(|name| cell(name));
+    let mut text = names.collect::<Vec<_>>().join(",") + "\n";
+    for candidate in &front.candidates {
+        let numbers = candidate.objectives.iter().chain(&candidate.values).map(|number| format!("{number:?}"));
+        text += &(numbers.collect::<Vec<_>>().join(",") + "\n");
     }
     text
 }

@@ -57,6 +57,8 @@ of_core! {
     TuningSummary = experiments::TuningSummary;
     /// The report on one scenario.
     Report = core::Report;
+    /// What the samples of one scenario tell of excitation, stability and energy.
+    Diagnostics = adaptarm_core::diagnostics::Diagnostics;
     /// Identifier, title and description of a preset.
     PresetNames = core::Preset;
     /// What is known of a gain.

@@ -61,6 +61,7 @@ fn operations() -> OpenApiRouter<AppState> {
         .routes(routes!(results::series))
         .routes(routes!(results::file))
         .routes(routes!(results::figure))
+        .routes(routes!(results::diagnostics))
         // What watches over servers asks at the top level.
         .routes(routes!(health::alive))
         .routes(routes!(health::ready))

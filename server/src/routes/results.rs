@@ -14,7 +14,7 @@ use crate::results::ResultError;
 use crate::series::{SeriesQuery, SeriesRequest};
 use crate::state::AppState;
 use adaptarm_core::recording::Recording;
-use adaptarm_core::scenario::Report;
+use adaptarm_core::scenario::{Report, Scenario};
 use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
@@ -22,6 +22,7 @@ use axum::response::{IntoResponse, Response};
 use futures_util::{Stream, stream};
 use serde::Deserialize;
 use std::sync::Arc;
+use tokio::task::spawn_blocking;
 use uuid::Uuid;
 
 /// Scenarios read at a time.
@@ -167,7 +168,7 @@ pub(super) async fn series(
     request.respond(samples(&state, &row).await?, &headers).await
 }
 
-/// Which scenario's figure.
+/// Which scenario's figure or diagnostics.
 #[derive(Debug, Clone, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
@@ -263,6 +264,52 @@ pub(super) async fn figure(
         return Ok(response);
     }
     request.respond(report, document, samples(&state, &row).await?, &headers).await
+}
+
+/// What the samples of one scenario tell: excitation, Lyapunov function, violated assumptions, energy, chatter.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/diagnostics", operation_id = "diagnostics", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        FigureQuery,
+        ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
+    ),
+    responses(
+        (
+            status = 200, description = "The diagnostics.", body = crate::openapi::Diagnostics,
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (status = 304, description = "You have this file."),
+    ),
+)]
+pub(super) async fn diagnostics(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name(id): Name,
+    Query(query): Query<FigureQuery>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let job = find(&state, owner.as_str(), &id).await?;
+    let (row, document, report) = find_report(&state, &job, query.scenario).await?;
+    let content = ["diagnostics", report.scenario_hash.as_str(), report.trajectory_hash.as_str()];
+    let name = format!("{}-diagnostics.json", report.scheme);
+    let download = Download::new("application/json", Disposition::Inline, &name, &content);
+    if let Some(response) = download.not_modified(&headers) {
+        return Ok(response);
+    }
+    let recording = samples(&state, &row).await?;
+    let found = spawn_blocking(move || {
+        let scenario: Scenario = Scenario::read(&mut serde_json::Deserializer::from_str(&document))
+            .map_err(|error| super::internal(error))?;
+        serde_json::to_vec(&scenario.diagnose(&recording).0).map_err(super::internal)
+    });
+    let bytes = found.await.map_err(super::internal)??;
+    let mut response = download.whole(Body::from(bytes));
+    // Nobody can read a part of a JSON document.
+    response.headers_mut().remove(header::ACCEPT_RANGES);
+    Ok(response)
 }
 
 /// One scenario of a job with its document and the report on it.
