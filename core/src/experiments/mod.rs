@@ -37,8 +37,8 @@ pub(crate) use stream::{Purpose, Stream};
 pub use distribution::{DistributionDocument, DistributionKind};
 pub use document::{
     Aggregate, AxisDocument, BaseDocument, CompareDocument, ConditionDocument, ConstraintDocument, EXPERIMENT_FORMAT,
-    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, ObjectiveDocument, PlantsDocument, RandomFieldDocument,
-    SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
+    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, ObjectiveDocument, PlantsDocument,
+    RandomFieldDocument, SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
 };
 pub use experiment::{Experiment, PlannedRun};
 pub use layout::Place;

@@ -101,7 +101,12 @@ impl Nsga {
     pub fn front(&self) -> Vec<&Member> {
         let kept: Vec<_> = self.members.iter().filter(|member| member.violation == 0.0).collect();
         let mut front: Vec<_> = kept.iter().filter(|a| !kept.iter().any(|b| dominates(b, a))).copied().collect();
-        front.sort_by(|a, b| a.objectives.iter().zip(&b.objectives).fold(std::cmp::Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b))));
+        front.sort_by(|a, b| {
+            a.objectives
+                .iter()
+                .zip(&b.objectives)
+                .fold(std::cmp::Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)))
+        });
         front.dedup_by(|a, b| a.objectives == b.objectives);
         front
     }

@@ -62,7 +62,9 @@ impl Search {
     fn is_sound(&self, plan: &TuningPlan) -> bool {
         let most = EXPERIMENT_LIMITS.population[1] as usize;
         match self {
-            Self::One(cma) => plan.objectives.is_empty() && cma.is_sound(plan.variables.len()) && cma.population <= most,
+            Self::One(cma) => {
+                plan.objectives.is_empty() && cma.is_sound(plan.variables.len()) && cma.population <= most
+            }
             Self::Front(nsga) => {
                 nsga.is_sound(plan.variables.len(), plan.objectives.len()) && nsga.population == plan.population
             }
@@ -344,14 +346,7 @@ impl Tuning {
         nsga.tell(points.into_iter().zip(rows.chunks(plants.max(1))).map(member).collect());
     }
 
-    fn learn(
-        &mut self,
-        plan: &TuningPlan,
-        candidates: &[Vec<f64>],
-        objectives: &[f64],
-        rows: &[Row],
-        duration_s: f64,
-    ) {
+    fn learn(&mut self, plan: &TuningPlan, candidates: &[Vec<f64>], objectives: &[f64], rows: &[Row], duration_s: f64) {
         let points = self.search.ask(plan, &mut self.stream(plan));
         let least = objectives.iter().copied().fold(f64::INFINITY, f64::min);
         let sigma = if let Search::One(cma) = &self.search { cma.sigma } else { 0.0 };
