@@ -25,12 +25,13 @@ mod statistics;
 mod stream;
 mod summary;
 mod tuning;
+mod tuning_summary;
 
 pub use distribution::{DistributionDocument, DistributionKind};
 pub use document::{
     Aggregate, AxisDocument, BaseDocument, CompareDocument, ConditionDocument, ConstraintDocument, EXPERIMENT_FORMAT,
-    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, ObjectiveDocument, PlantsDocument, RandomFieldDocument,
-    SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
+    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, ObjectiveDocument, PlantsDocument,
+    RandomFieldDocument, SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
 };
 pub use experiment::{Experiment, PlannedRun};
 pub use layout::Place;
@@ -40,4 +41,5 @@ pub use results::{FoldError, Results};
 pub use row::{ResultColumns, Row, RowOutcome};
 pub use statistics::{Share, Statistics};
 pub use summary::{GroupSummary, MetricSummary, Refusal, Sensitivity, Summary};
-pub use tuning::{Candidate, Front, FrontCandidate, Generation, Tuning, TuningError, TuningSummary, Validation};
+pub use tuning::Tuning;
+pub use tuning_summary::{Candidate, Front, FrontCandidate, Generation, TuningError, TuningSummary, Validation};

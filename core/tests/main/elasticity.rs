@@ -59,7 +59,8 @@ fn stiff_joints_tend_to_rigid_ones_with_the_inverse_of_stiffness() {
                 ..Default::default()
             });
             let soft = run(document.clone());
-            let late = |run: &Run| run.recording.signal(Signal::Position, motor.len() - 1).skip(150).collect::<Vec<_>>();
+            let late =
+                |run: &Run| run.recording.signal(Signal::Position, motor.len() - 1).skip(150).collect::<Vec<_>>();
             late(&soft).iter().zip(late(&rigid)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
         let [soft, stiff] = [1.0, 2.0].map(distance);
@@ -101,7 +102,11 @@ fn refusals_say_what_an_elastic_joint_may_be() {
     for (elasticity, pointer, message) in [
         (r#"{"stiffness_nm_rad":[1e4,1e4],"motor_inertia_kgm2":[1,1,1]}"#, "stiffness_nm_rad", "2 numbers where 3"),
         (r#"{"stiffness_nm_rad":[1e4,1e4,0],"motor_inertia_kgm2":[1,1,1]}"#, "stiffness_nm_rad/2", "1 to"),
-        (r#"{"stiffness_nm_rad":[1e8,1e4,1e4],"motor_inertia_kgm2":[1,1,1]}"#, "stiffness_nm_rad/0", "steps of 0.001 s"),
+        (
+            r#"{"stiffness_nm_rad":[1e8,1e4,1e4],"motor_inertia_kgm2":[1,1,1]}"#,
+            "stiffness_nm_rad/0",
+            "steps of 0.001 s",
+        ),
         (r#"{"stiffness_nm_rad":[1e4,1e4,1e4],"motor_inertia_kgm2":[3,1,1]}"#, "motor_inertia_kgm2", "of the links"),
         (r#"{"stiffness_nm_rad":[1e4,1e4,1e4]}"#, "", "missing field `motor_inertia_kgm2`"),
     ] {

@@ -5,8 +5,8 @@ use adaptarm_core::dynamics::FrictionSign;
 use adaptarm_core::recording::Signal;
 use adaptarm_core::robots::{Robot, TwoLink, robot};
 use adaptarm_core::scenario::{
-    AdaptationDocument, AdaptationKind, EffectsDocument, OutcomeKind, Run, SamplingDocument, Scenario, ScenarioDocument,
-    SchemeDocument, TrajectoryDocument, TrajectoryKind,
+    AdaptationDocument, AdaptationKind, EffectsDocument, OutcomeKind, Run, SamplingDocument, Scenario,
+    ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
 };
 use nalgebra::{DMatrix, DVector, SVector, Vector2};
 
@@ -53,7 +53,15 @@ fn concurrent_learning_needs_no_persistent_excitation() {
         ("pendulum", &[&[60.0], &[-40.0], &[80.0], &[20.0], &[-60.0], &[30.0]], 0.02),
         (
             "two_link",
-            &[&[0.0, 0.0], &[60.0, 30.0], &[-30.0, 90.0], &[40.0, -60.0], &[90.0, 40.0], &[10.0, 80.0], &[-20.0, -40.0]],
+            &[
+                &[0.0, 0.0],
+                &[60.0, 30.0],
+                &[-30.0, 90.0],
+                &[40.0, -60.0],
+                &[90.0, 40.0],
+                &[10.0, 80.0],
+                &[-20.0, -40.0],
+            ],
             0.6,
         ),
     ];
@@ -139,11 +147,8 @@ fn concurrent_learning_is_its_equation() {
 #[test]
 fn with_drem_every_parameter_error_falls_by_itself() {
     for (id, floor, bound) in [("pendulum", 1e-3, 1e-3), ("two_link", 1e-4, 1e-2)] {
-        let drem = AdaptationDocument {
-            kind: AdaptationKind::Drem,
-            excitation_floor: Some(floor),
-            ..Default::default()
-        };
+        let drem =
+            AdaptationDocument { kind: AdaptationKind::Drem, excitation_floor: Some(floor), ..Default::default() };
         let run = run(document(id, Some(drem), 10.0));
         let left = norm(&errors(&run, id));
         println!("{id}: {left}");

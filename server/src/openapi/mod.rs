@@ -5,7 +5,9 @@ mod errors;
 mod examples;
 mod types;
 
-pub use types::{Diagnostics, Gain, Health, Index, PresetNames, Report, Scenario, ScenarioLimits, ServerSentEvent, StudyResult};
+pub use types::{
+    Diagnostics, Gain, Health, Index, PresetNames, Report, Scenario, ScenarioLimits, ServerSentEvent, StudyResult,
+};
 
 use crate::routes;
 use crate::series::Format;
