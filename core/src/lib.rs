@@ -16,6 +16,7 @@ pub mod diagnostics;
 pub mod dynamics;
 pub mod effects;
 mod eigen;
+pub mod exercises;
 pub mod experiments;
 #[cfg(feature = "figures")]
 pub mod figures;

@@ -9,6 +9,7 @@ mod build_trajectory;
 mod document;
 mod error;
 mod gains;
+mod group;
 mod presets;
 mod report;
 mod robot_defaults;
@@ -22,7 +23,8 @@ mod validate_trajectory;
 
 pub use beyond::{
     AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
-    PayloadDocument, SamplingDocument, StribeckDocument, VelocityDocument, VelocityKind,
+    IntegralDocument, PayloadDocument, SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument,
+    VelocityKind,
 };
 pub use document::{
     ElbowDocument, FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument,
@@ -34,9 +36,10 @@ pub use gains::{
     ComputedTorqueGains, GainInfo, GainSet, GainShape, ModelParameters, PdGains, PdGravityGains, ProjectionBounds,
     ProposedGains, SlotineLiGains, TangArteagaGains,
 };
+pub use group::{Group, groups, run_each};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
-pub use side_by_side::{SideBySide, run_each};
+pub use side_by_side::SideBySide;
 pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;

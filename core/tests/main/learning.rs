@@ -81,7 +81,10 @@ fn concurrent_learning_needs_no_persistent_excitation() {
         let gradient = [10.0, 30.0].map(|duration_s| learned(None, duration_s));
         let stack = [10.0, 30.0].map(|duration_s| learned(Some(concurrent.clone()), duration_s));
         println!("{id}: gradient {gradient:?}, concurrent {stack:?}");
-        assert!((gradient[0] - gradient[1]).abs() < 0.05 * gradient[0], "{id}: at rest a gradient law learns next to nothing");
+        assert!(
+            (gradient[0] - gradient[1]).abs() < 0.05 * gradient[0],
+            "{id}: at rest a gradient law learns next to nothing"
+        );
         assert!(stack[1] < bound && stack[1] < 0.7 * stack[0] && stack[1] < 0.5 * gradient[1], "{id}: {stack:?}");
     }
 }

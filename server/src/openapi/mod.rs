@@ -6,7 +6,8 @@ mod examples;
 mod types;
 
 pub use types::{
-    Diagnostics, Gain, Health, Index, PresetNames, Report, Scenario, ScenarioLimits, ServerSentEvent, StudyResult,
+    AnyResult, Diagnostics, Experiment, ExperimentLimits, Gain, Health, Index, PresetNames, Report, Scenario,
+    ScenarioLimits, ServerSentEvent, StudyResult,
 };
 
 use crate::routes;

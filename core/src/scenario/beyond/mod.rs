@@ -10,7 +10,8 @@ mod schema;
 
 pub use document::{
     AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
-    PayloadDocument, SamplingDocument, StribeckDocument, VelocityDocument, VelocityKind,
+    IntegralDocument, PayloadDocument, SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument,
+    VelocityKind,
 };
 pub(super) use resolve::resolve;
 
@@ -24,6 +25,8 @@ pub(super) fn is_beyond(document: &ScenarioDocument) -> bool {
         SchemeDocument::Proposed(_) | SchemeDocument::TangArteaga(_) | SchemeDocument::SlotineLi(_)
     ) || document.velocity.is_some()
         || document.adaptation.is_some()
+        || document.integral.is_some()
+        || document.signs.is_some()
         || document.effects.is_some()
 }
 

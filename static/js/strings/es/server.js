@@ -94,9 +94,9 @@ export const server = {
   // La página de trabajos.
   title: "Trabajos",
   intro:
-    "Un trabajo es un estudio que calcula el servidor: sigue aunque se cierre esta página, sobrevive a un reinicio y da los mismos bits que su navegador.",
+    "Un trabajo es un estudio o un experimento que calcula el servidor: sigue aunque se cierre esta página, sobrevive a un reinicio y da los mismos bits que su navegador.",
   states: { queued: "en cola", running: "en marcha", succeeded: "terminado", failed: "fallido", canceled: "cancelado" },
-  kinds: { study: "estudio" },
+  kinds: { study: "estudio", sweep: "barrido", monte_carlo: "estudio Monte Carlo", compare: "comparación", tuning: "sintonización" },
   filters: "Qué trabajos",
   filterState: "Estado",
   filterKind: "Tipo",
@@ -207,9 +207,9 @@ export const server = {
   openScenario: "Abrir este escenario en el laboratorio",
 
   // Enviar.
-  submitTitle: "Enviar un estudio",
-  submitHelp: "Un estudio es un documento JSON: {\"scenarios\": [...]}, un solo escenario o una petición completa de la API.",
-  submitText: "El estudio como JSON",
+  submitTitle: "Enviar un estudio o un experimento",
+  submitHelp: "Un documento JSON: un estudio ({\"scenarios\": [...]}), un solo escenario, un experimento o una petición completa de la API.",
+  submitText: "El estudio o experimento como JSON",
   submitFile: "O elija un archivo",
   submitLabel: "Nombre",
   submitButton: "Enviar",
