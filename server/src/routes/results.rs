@@ -311,8 +311,7 @@ pub(super) async fn diagnostics(
     }
     let recording = samples(&state, &row).await?;
     let found = spawn_blocking(move || {
-        let scenario: Scenario = Scenario::read(&mut serde_json::Deserializer::from_str(&document))
-            .map_err(|error| super::internal(error))?;
+        let scenario = Scenario::read(&mut serde_json::Deserializer::from_str(&document)).map_err(super::internal)?;
         serde_json::to_vec(&scenario.diagnose(&recording).0).map_err(super::internal)
     });
     let bytes = found.await.map_err(super::internal)??;
