@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn without_excitation_nothing_moves() {
         let mixing = Mixing::<2>::new(1.0, 1e-3, SVector::repeat(1.0));
-        assert_eq!(mixing.of_one(SMatrix::zeros(), SVector::zeros()), SVector::zeros());
+        assert_eq!(mixing.of_one(SMatrix::zeros(), SVector::zeros()), SVector::<f64, 2>::zeros());
         let mut rate = [9.0; 2];
         mixing.theta_hat_rate(&[(0, 0), (0, 1), (1, 1)], &[1.0, 1.0, 1.0, 1.0, 1.0], &mut rate);
         assert_eq!(rate, [0.0; 2], "of a singular memory nothing is learned");

@@ -116,7 +116,7 @@ fn concurrent_learning_is_its_equation() {
         assert_eq!(Law::recorded(&states), n);
         let sign = FrictionSign::True.of(&velocity);
         let torque = Vector2::zeros();
-        moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, &states, &mut vec![0.0; FILTER]));
+        moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, &states, &mut [0.0; FILTER]));
     }
     let (geometry, velocity) = at(5);
     let gradient = SVector::<f64, 11>::from_fn(|k, _| 0.1 * k as f64 - 0.3);

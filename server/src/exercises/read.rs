@@ -37,8 +37,8 @@ pub fn read(path: &Path) -> Result<Exercise, ExerciseError> {
 /// Reads and checks an exercise.
 pub fn parse(text: &str) -> Result<Exercise, ExerciseError> {
     let document = toml::Deserializer::parse(text).map_err(|error| {
-        let before = &text.as_bytes()[..error.span().map_or(0, |span| span.start.min(text.len()))];
-        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
         ExerciseError::Syntax(format!("not TOML: {} at line {line}", brief(error.message())))
     })?;
     Exercise::read(document).map_err(|error| match error {
