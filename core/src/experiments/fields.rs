@@ -77,6 +77,11 @@ impl Tree {
         Ok(())
     }
 
+    /// Merges a change in: members replace members, level by level, and null takes away. Source: RFC 7396.
+    pub fn merge(&mut self, change: &Value) {
+        merge(&mut self.0, change);
+    }
+
     /// Replaces the seed of a run's own noise.
     pub fn set_seed(&mut self, seed: u64) {
         if let Some(value) = find_mut(&mut self.0, "/seed") {
@@ -123,6 +128,30 @@ fn find_mut<'a>(root: &'a mut Value, pointer: &str) -> Option<&'a mut Value> {
     })
 }
 
+fn merge(target: &mut Value, change: &Value) {
+    let Value::Map(changes) = change else {
+        *target = change.clone();
+        return;
+    };
+    if !target.is_map() {
+        *target = Value::Map(Vec::new());
+    }
+    let Value::Map(members) = target else { return };
+    for (name, change) in changes {
+        let place = members.iter().position(|(member, _)| member == name);
+        match (place, change) {
+            (Some(place), Value::Null) => drop(members.remove(place)),
+            (None, Value::Null) => {}
+            (Some(place), _) => merge(&mut members[place].1, change),
+            (None, _) => {
+                let mut member = Value::Null;
+                merge(&mut member, change);
+                members.push((name.clone(), member));
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,6 +186,27 @@ mod tests {
             gains.k_v[0] *= 2.0;
         }
         assert_eq!(tree.scenario().unwrap().document(), &document);
+    }
+
+    /// The examples of RFC 7396, appendix A, that have a meaning here.
+    #[test]
+    fn changes_are_merged_level_by_level() {
+        let merged = |target: &str, change: &str| {
+            let value = |text: &str| serde_json::from_str::<Value>(text).unwrap();
+            let mut tree = Tree(value(target));
+            tree.merge(&value(change));
+            tree.0
+        };
+        for (target, change, result) in [
+            (r#"{"a":"b"}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"b":"c"}"#, r#"{"a":"b","b":"c"}"#),
+            (r#"{"a":"b","b":"c"}"#, r#"{"a":null}"#, r#"{"b":"c"}"#),
+            (r#"{"a":{"b":"c"}}"#, r#"{"a":{"b":"d","c":null}}"#, r#"{"a":{"b":"d"}}"#),
+            (r#"{"a":[{"b":"c"}]}"#, r#"{"a":[1]}"#, r#"{"a":[1]}"#),
+            (r#"{"a":"c"}"#, r#"{"a":{"bb":{"ccc":null}}}"#, r#"{"a":{"bb":{}}}"#),
+        ] {
+            assert_eq!(merged(target, change), serde_json::from_str::<Value>(result).unwrap(), "{target} {change}");
+        }
     }
 
     #[test]
