@@ -3,8 +3,11 @@
 //! Works on the document as a generic tree and knows none of its fields: what is added to scenarios can vary at once.
 
 use super::limits::{EXPERIMENT_LIMITS, conflict, unknown};
-use crate::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError};
+use crate::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError, read_document};
 use ciborium::Value;
+use ciborium::value::Error;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 /// A scenario as a tree.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +92,14 @@ impl Tree {
         }
     }
 
+    /// The scenario that this tree is after something that people wrote was merged in.
+    pub fn merged_scenario(&self) -> Result<Scenario, ScenarioError> {
+        match self.0.deserialized() {
+            Ok(Written(document)) => Scenario::new(document),
+            Err(Error::Custom(message)) => Err(conflict("", message)),
+        }
+    }
+
     /// The scenario that this tree is.
     pub fn scenario(&self) -> Result<Scenario, ScenarioError> {
         let document: ScenarioDocument = self
@@ -96,6 +107,15 @@ impl Tree {
             .deserialized()
             .map_err(|error| ScenarioError::new("", Problem::Malformed { message: error.to_string() }))?;
         Scenario::new(document)
+    }
+}
+
+/// A scenario as people write it, with whole numbers where there may be fractions.
+struct Written(ScenarioDocument);
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_document(deserializer).map(Self).map_err(D::Error::custom)
     }
 }
 

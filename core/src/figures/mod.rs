@@ -1,10 +1,11 @@
 //! The study's figures, drawn through any plotters backend: canvas in the browser, SVG and PNG on the server.
 //!
 //! `figure` says which there are, `panels` what each shows, `draw` and `panel` how that looks, `readout` what it says in
-//! numbers. One code for all targets.
+//! numbers; `dot_plot` is for tables of experiments. One code for all targets.
 
 mod axes;
 mod decimate;
+mod dot_plot;
 mod draw;
 mod figure;
 mod legend;
@@ -19,6 +20,7 @@ mod svg;
 mod ticks;
 mod view;
 
+pub use dot_plot::{DotPlot, DotRow, dot_plot};
 pub use draw::draw;
 pub use figure::Figure;
 pub use panel::PanelPlace;

@@ -3,14 +3,14 @@
 
 use super::checkpoint::replace;
 use crate::series::parquet;
-use adaptarm_core::experiments::{Experiment, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
+use adaptarm_core::experiments::{Experiment, Results, Row, RowOutcome, Tuning, TuningSummary};
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Of a sweep, a Monte Carlo study or a comparison.
-pub(super) fn write(experiment: &Experiment, results: &Results, summary: &Summary, folder: &Path) -> Result<()> {
+/// Of all kinds but a tuning.
+pub(super) fn write(experiment: &Experiment, results: &Results, summary: &impl Serialize, folder: &Path) -> Result<()> {
     save_json(&folder.join("experiment.json"), experiment.document())?;
     save_json(&folder.join("summary.json"), summary)?;
     replace(&folder.join("runs.csv"), csv(experiment, results).as_bytes())?;
@@ -36,6 +36,11 @@ pub(super) fn write_tuning(
         let _ = writeln!(text, "{},{restart},{population},{:?},{:?}", n + 1, generation.best, generation.sigma);
     }
     replace(&folder.join("generations.csv"), text.as_bytes())
+}
+
+/// Writes a text file.
+pub(super) fn save_text(path: &Path, text: &str) -> Result<()> {
+    replace(path, text.as_bytes())
 }
 
 fn save_json(path: &Path, document: &impl Serialize) -> Result<()> {

@@ -5,9 +5,11 @@
 
 mod checkpoint;
 mod files;
+mod search_report;
 
 pub use checkpoint::CheckpointError;
 
+use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, PlannedRun, Results, Row, Summary, Tuning, TuningError, TuningSummary};
 use anyhow::{Context, Result};
 use checkpoint::{Checkpoint, State};
@@ -30,6 +32,8 @@ pub enum Outcome {
     Summary(Box<Summary>),
     /// Of a tuning.
     Tuning(Box<TuningSummary>),
+    /// Of a replication.
+    Replication(Box<ReplicationSummary>),
 }
 
 /// How an experiment is worked on.
@@ -109,6 +113,13 @@ fn lay_out(
     })?;
     bar.finish_and_clear();
     checkpoint.save(&State::Rows(results.rows().cloned().collect()))?;
+    if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+        if let Some(folder) = folder {
+            files::write(experiment, &results, &summary, folder)?;
+            search_report::write(experiment, &summary, folder)?;
+        }
+        return Ok(Outcome::Replication(Box::new(summary)));
+    }
     let summary = Summary::of(experiment, &results);
     if let Some(folder) = folder {
         files::write(experiment, &results, &summary, folder)?;

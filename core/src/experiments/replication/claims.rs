@@ -213,7 +213,8 @@ fn slotine_li_worst_tracking(study: &Study) -> (bool, String) {
 
 fn similar_to_tang_arteaga(study: &Study) -> (bool, String) {
     let (proposed, other) = (of(study, Scheme::Proposed), of(study, Scheme::TangArteaga));
-    let ratios = |ours: &[f64; JOINTS], theirs: &[f64; JOINTS]| std::array::from_fn(|joint| ours[joint] / theirs[joint]);
+    let ratios =
+        |ours: &[f64; JOINTS], theirs: &[f64; JOINTS]| std::array::from_fn(|joint| ours[joint] / theirs[joint]);
     let e: [f64; JOINTS] = ratios(&proposed.index_e_deg, &other.index_e_deg);
     let de: [f64; JOINTS] = ratios(&proposed.index_de_deg_s, &other.index_de_deg_s);
     (

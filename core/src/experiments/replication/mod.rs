@@ -8,6 +8,7 @@ mod claims;
 mod document;
 mod entries;
 mod findings;
+mod passes;
 mod readings;
 mod search;
 mod summary;

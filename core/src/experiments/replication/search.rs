@@ -161,7 +161,7 @@ impl Search {
 
 /// The scenario of a changed tree, which still is of its base's scheme and has its base's samples.
 pub(super) fn changed(tree: &Tree, base: &Base) -> Result<Scenario, ScenarioError> {
-    let scenario = tree.scenario()?;
+    let scenario = tree.merged_scenario()?;
     let (settings, wanted) = (scenario.settings(), base.scenario.settings());
     if scenario.scheme() != base.scenario.scheme() || scenario.robot().id != base.scenario.robot().id {
         return Err(conflict("/scheme", "an option changes neither robot nor scheme".to_owned()));

@@ -111,7 +111,8 @@ fn horizons(document: &ReplicationDocument, bases: &[Base]) -> Result<Vec<usize>
         check_range(&at, *horizon_s, [FEWEST_SAMPLES as f64 / per_second, settings.duration_s], "s")?;
         let samples = horizon_s * per_second;
         if (samples - samples.round()).abs() > 1e-6 {
-            let message = format!("{horizon_s} s are {samples} samples of the bases; it must be a whole number of them");
+            let message =
+                format!("{horizon_s} s are {samples} samples of the bases; it must be a whole number of them");
             return Err(conflict(at, message));
         }
         if horizons.contains(&(samples.round() as usize)) {
