@@ -2,9 +2,11 @@
 //!
 //! For tables of experiments, which have no time axis. Values that are not positive have no place on it and are left out.
 
+use super::axes::power_of_ten;
 use super::path::{Frame, Path};
 use super::style::{Dash, Line, Rgb, Style, Theme, scheme_style};
 use super::surface::{Anchor, DrawError, Pen};
+use super::ticks::Tick;
 use crate::scenario::Scheme;
 use plotters::prelude::*;
 
@@ -68,12 +70,20 @@ impl Scale {
         self.left + share * (self.right - self.left)
     }
 
-    /// 1, 2 and 5 times powers of ten where there are few decades, else the powers alone.
-    fn ticks(&self) -> Vec<f64> {
-        let steps: &[f64] = if (self.high / self.low).log10() < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    /// Powers of ten; with few of them also 2 and 5 times, with hardly one every whole multiple.
+    fn ticks(&self) -> Vec<Tick> {
+        let steps: &[f64] = match (self.high / self.low).log10() {
+            decades if decades < 0.7 => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+            decades if decades < 2.5 => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
+        };
         let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
-        let all = (first..=last).flat_map(|k| steps.iter().map(move |step| step * 10.0_f64.powi(k)));
-        all.filter(|tick| (self.low..=self.high).contains(tick)).collect()
+        let tick = |k: i32, step: f64| {
+            let (value, decimals) = (step * power_of_ten(k), (-k).max(0) as usize);
+            (value, format!("{value:.decimals$}"))
+        };
+        let all = (first..=last).flat_map(|k| steps.iter().map(move |step| tick(k, *step)));
+        all.filter(|(value, _)| (self.low..=self.high).contains(value)).collect()
     }
 }
 
@@ -99,10 +109,10 @@ fn draw(pen: &mut Pen<'_, SVGBackend<'_>>, plot: &DotPlot<'_>, right: f64, botto
     let theme = pen.style.theme;
     let scale = Scale::new(plot, pen.px(LEFT), right - pen.px(RIGHT));
     let (top, floor) = (pen.px(TOP), bottom - pen.px(BOTTOM));
-    for tick in scale.ticks() {
-        let x = scale.x(tick);
+    for (value, label) in scale.ticks() {
+        let x = scale.x(value);
         pen.hairline((x, top), (x, floor), theme.grid())?;
-        pen.text(&format!("{tick}"), (x, floor + pen.px(4.0)), LETTERS, theme.ink(), Anchor::Top)?;
+        pen.text(&label, (x, floor + pen.px(4.0)), LETTERS, theme.ink(), Anchor::Top)?;
     }
     let middle = f64::midpoint(scale.left, scale.right);
     pen.text(plot.axis, (middle, floor + pen.px(22.0)), LETTERS + 0.5, theme.ink(), Anchor::Top)?;
@@ -173,7 +183,8 @@ mod tests {
         let plot = DotPlot { axis: "x", legend: ["", "point", ""], groups, reference: 1.0 };
         let scale = Scale::new(&plot, 0.0, 100.0);
         assert!((scale.x(1.0) - 50.0).abs() < 1e-9);
-        assert_eq!(scale.ticks(), [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0]);
+        let labels: Vec<_> = scale.ticks().into_iter().map(|(_, label)| label).collect();
+        assert_eq!(labels, ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
         let svg = dot_plot(&plot).unwrap();
         let color = svg.matches("fill=\"#0054A6\"").count();
         assert_eq!(color, 3, "one in the legend, two in rows");

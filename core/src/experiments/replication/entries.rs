@@ -66,7 +66,7 @@ impl Entry {
         match self.quantity {
             Quantity::Error => format!("I(e{joint})"),
             Quantity::Rate => format!("I(ė{joint})"),
-            Quantity::ObserverPeak => format!("max |z{joint}|"),
+            Quantity::ObserverPeak => format!("peak z{joint}"),
         }
     }
 
