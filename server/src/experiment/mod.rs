@@ -5,9 +5,12 @@
 
 mod checkpoint;
 mod files;
+mod pictures;
 mod search_report;
 
 pub use checkpoint::CheckpointError;
+pub use files::{File, Found};
+pub use pictures::Picture;
 
 use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, PlannedRun, Results, Row, Summary, Tuning, TuningError, TuningSummary};
@@ -114,17 +117,18 @@ fn lay_out(
     bar.finish_and_clear();
     checkpoint.save(&State::Rows(results.rows().cloned().collect()))?;
     if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+        let summary = Box::new(summary);
         if let Some(folder) = folder {
-            files::write(experiment, &results, &summary, folder)?;
+            files::write(experiment, &Found::Readings(results, summary.clone()), folder)?;
             search_report::write(experiment, &summary, folder)?;
         }
-        return Ok(Outcome::Replication(Box::new(summary)));
+        return Ok(Outcome::Replication(summary));
     }
-    let summary = Summary::of(experiment, &results);
+    let summary = Box::new(Summary::of(experiment, &results));
     if let Some(folder) = folder {
-        files::write(experiment, &results, &summary, folder)?;
+        files::write(experiment, &Found::Rows(results, summary.clone()), folder)?;
     }
-    Ok(Outcome::Summary(Box::new(summary)))
+    Ok(Outcome::Summary(summary))
 }
 
 /// Generation after generation.
@@ -158,7 +162,7 @@ fn search(
     checkpoint.save(&State::Tuning(Box::new(tuning.clone())))?;
     let summary = tuning.summary(experiment);
     if let Some(folder) = folder {
-        files::write_tuning(experiment, &tuning, &summary, folder)?;
+        files::write(experiment, &Found::Search(Box::new(tuning)), folder)?;
     }
     Ok(Outcome::Tuning(Box::new(summary)))
 }

@@ -2,7 +2,7 @@
 //!
 //! Search space and distance stand before results; nothing here decides anything.
 
-use super::files::save_text;
+use super::checkpoint::replace;
 use adaptarm_core::experiments::Experiment;
 use adaptarm_core::experiments::replication::{EntrySummary, ReadingSummary, ReplicationDocument, ReplicationSummary};
 use adaptarm_core::figures::{DotPlot, DotRow, dot_plot};
@@ -13,11 +13,11 @@ use std::path::Path;
 /// Writes report and figures.
 pub(super) fn write(experiment: &Experiment, summary: &ReplicationSummary, folder: &Path) -> Result<()> {
     let document = experiment.document().replication.as_ref().context("a replication has its section")?;
-    save_text(&folder.join("entries.svg"), &dot_plot(&entries_plot(summary))?)?;
-    save_text(&folder.join("unknowns.svg"), &dot_plot(&unknowns_plot(summary))?)?;
+    replace(&folder.join("entries.svg"), dot_plot(&entries_plot(summary))?.as_bytes())?;
+    replace(&folder.join("unknowns.svg"), dot_plot(&unknowns_plot(summary))?.as_bytes())?;
     let mut text = String::new();
     compose(experiment, document, summary, &mut text)?;
-    save_text(&folder.join("report.md"), &text)
+    replace(&folder.join("report.md"), text.as_bytes())
 }
 
 fn entries_plot(summary: &ReplicationSummary) -> DotPlot<'static> {
