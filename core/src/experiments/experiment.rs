@@ -106,6 +106,7 @@ impl Experiment {
         match &self.work {
             Work::LaidOut(layout) => layout.runs(),
             Work::Searched(plan) => plan.most_runs(),
+            Work::Replicated(search) => search.runs(),
         }
     }
 

@@ -174,16 +174,21 @@ fn what_is_wrong_is_said_on_one_line() -> Result<()> {
 /// The examples of the manual are right, whatever they would take to run.
 #[test]
 fn the_examples_of_the_manual_are_experiments() -> Result<()> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/experiments");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
     let mut count = 0;
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let text = fs::read_to_string(&path)?;
-        let read = adaptarm_core::experiments::Experiment::read(&mut serde_json::Deserializer::from_str(&text));
-        ensure!(read.is_ok(), "{}: {:?}", path.display(), read.err().map(|error| error.to_string()));
-        count += 1;
+    for folder in ["experiments", "experiments/sensorless", "replication"].map(|name| docs.join(name)) {
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.extension().is_none_or(|extension| extension != "json") {
+                continue;
+            }
+            let text = fs::read_to_string(&path)?;
+            let read = adaptarm_core::experiments::Experiment::read(&mut serde_json::Deserializer::from_str(&text));
+            ensure!(read.is_ok(), "{}: {:?}", path.display(), read.err().map(|error| error.to_string()));
+            count += 1;
+        }
     }
-    assert!(count >= 5);
+    assert!(count >= 18, "{count}");
     Ok(())
 }
 
