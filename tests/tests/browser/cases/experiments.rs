@@ -34,8 +34,8 @@ fn sweep() -> Value {
 fn compare() -> Value {
     let set = json!([{ "field": "/plant/theta_scale/*", "value": 1.2, "relative": true }]);
     let conditions = json!([{ "name": "as in the paper", "set": [] }, { "name": "heavier", "set": set }]);
-    let field =
-        json!({ "field": "/plant/theta_scale/*", "distribution": { "kind": "lognormal", "median": 1, "log_sd": 0.1 } });
+    let field = json!({ "field": "/plant/theta_scale/*", "relative": true,
+        "distribution": { "kind": "lognormal", "median": 1, "log_sd": 0.1 } });
     let bases = json!([
         base("Proposed", "proposed"),
         base("Tang and Arteaga", "tang_arteaga"),
