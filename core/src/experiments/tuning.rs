@@ -102,7 +102,7 @@ impl Experiment {
 fn plan(experiment: &Experiment) -> Option<&TuningPlan> {
     match &experiment.work {
         Work::Searched(plan) => Some(plan),
-        Work::LaidOut(_) => None,
+        Work::LaidOut(_) | Work::Replicated(_) => None,
     }
 }
 

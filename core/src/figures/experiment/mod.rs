@@ -14,7 +14,7 @@ mod shades;
 use super::path::Frame;
 use super::style::{Style, Theme};
 use super::surface::{DrawError, Pen, Surface};
-use crate::experiments::{Experiment, Results, Summary, SweepDesign, TuningSummary};
+use crate::experiments::{Experiment, ExperimentKind, Results, Summary, SweepDesign, TuningSummary};
 use plotters::prelude::*;
 
 /// Drawing units per layout pixel of an SVG, as the runs' figures have them.
@@ -73,6 +73,8 @@ impl ExperimentFigure {
     pub fn shows(self, experiment: &Experiment) -> bool {
         let sweep = experiment.document().sweep.as_ref();
         match self {
+            // Its figures stand in its report.
+            _ if experiment.kind() == ExperimentKind::Replication => false,
             Self::HeatMap => sweep.is_some_and(|sweep| sweep.design == SweepDesign::Grid && sweep.axes.len() == 2),
             Self::Boxes => experiment.runs().is_some(),
             Self::Ranking => experiment.runs().is_some() && experiment.base_names().len() > 1,
