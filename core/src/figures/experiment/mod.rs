@@ -193,6 +193,7 @@ mod tests {
             monte_carlo: None,
             compare: None,
             tuning: None,
+            replication: None,
         };
         change(&mut document);
         Experiment::new(document).unwrap()
