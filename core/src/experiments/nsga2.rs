@@ -269,10 +269,11 @@ mod tests {
         let nsga = search(150, zdt1);
         let front = nsga.front();
         assert!(front.len() >= 30, "{} members", front.len());
-        // The member of the least f1 is kept whatever its f2 is, so an end of the front may hang in the air.
-        let off = |member: &&&Member| (member.objectives[1] - (1.0 - member.objectives[0].sqrt())).abs() > 0.02;
-        let stray = front.iter().filter(off).count();
-        assert!(stray <= 1, "{stray} of {} are off the front", front.len());
+        for member in &front {
+            let [f1, f2] = [member.objectives[0], member.objectives[1]];
+            // Where f1 is next to nothing the front is vertical, and a member above it may be beaten by none.
+            assert!(f1 < 1e-6 || (f2 - (1.0 - f1.sqrt())).abs() < 0.02, "({f1}, {f2}) is off the front");
+        }
         let points: Vec<_> = front.iter().map(|member| member.objectives.as_slice()).collect();
         let volume = hypervolume(&points, &[1.0, 1.0]);
         assert!((0.63..2.0 / 3.0).contains(&volume), "{volume}");
