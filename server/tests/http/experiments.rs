@@ -205,7 +205,7 @@ async fn what_is_wrong_is_said_with_its_place() {
         body["spec"]["monte_carlo"]["draws"] = json!(50_000);
         body["spec"]["bases"][0]["scenario"]["integration"]["duration_s"] = json!(12.0 * 1000.0);
     };
-    refused(&long, "/problems/too-much", "/spec").await;
+    refused(&long, "/problems/conflict", "/spec/bases/0/scenario/integration").await;
     let schema = app.get("/api/v1/schema/experiment").await.json();
     assert!(schema["properties"]["monte_carlo"].is_object(), "{schema}");
     let limits = app.get("/api/v1/limits").await.json();
