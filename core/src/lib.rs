@@ -13,6 +13,7 @@ pub mod control;
 pub mod decomposition;
 pub mod dynamics;
 pub mod effects;
+pub mod exercises;
 pub mod experiments;
 #[cfg(feature = "figures")]
 pub mod figures;

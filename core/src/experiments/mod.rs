@@ -26,6 +26,14 @@ mod stream;
 mod summary;
 mod tuning;
 
+// Exercises draw, change and name the same things.
+pub(crate) use distribution::Distribution;
+pub(crate) use fields::{Change, Tree};
+pub(crate) use limits::{check_count, check_range, conflict, unknown};
+pub(crate) use resolve::{changes, check_fields, random_fields};
+pub(crate) use statistics::quantile;
+pub(crate) use stream::{Purpose, Stream};
+
 pub use distribution::{DistributionDocument, DistributionKind};
 pub use document::{
     Aggregate, AxisDocument, BaseDocument, CompareDocument, ConditionDocument, ConstraintDocument, EXPERIMENT_FORMAT,

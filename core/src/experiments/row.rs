@@ -47,7 +47,7 @@ pub struct ResultColumns {
 
 impl ResultColumns {
     /// For arms of at most so many joints.
-    pub(super) fn new(joints: usize) -> Self {
+    pub(crate) fn new(joints: usize) -> Self {
         let of_metric = |(name, _, _): &Entry| {
             let single = (1..=joints).map(move |joint| format!("{name}_{joint}"));
             std::iter::once((*name).to_owned()).chain(single).collect::<Vec<_>>()
@@ -70,7 +70,8 @@ impl ResultColumns {
         (0..self.names.len()).step_by(self.joints + 1)
     }
 
-    fn of(&self, metrics: &Metrics) -> Vec<Option<f64>> {
+    /// A number per column where there is one.
+    pub(crate) fn of(&self, metrics: &Metrics) -> Vec<Option<f64>> {
         let mut row = Vec::with_capacity(self.names.len());
         for (_, numbers, joints) in &METRICS {
             let mut numbers = numbers(metrics);

@@ -21,8 +21,8 @@ mod validate;
 mod validate_trajectory;
 
 pub use beyond::{
-    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
-    StribeckDocument, VelocityDocument, VelocityKind,
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, IntegralDocument, PayloadDocument,
+    SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument, VelocityKind,
 };
 pub use document::{
     ElbowDocument, FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument,

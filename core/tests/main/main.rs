@@ -4,6 +4,7 @@ mod beyond;
 mod convergence;
 mod documents;
 mod dual;
+mod exercises;
 mod experiments;
 mod imperfections;
 mod lanes;

@@ -55,7 +55,7 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         ModelParameters::True => plant.theta,
         ModelParameters::Nominal => nominal,
     };
-    let (velocity_source, feedback, adaptation, mut theta_hat_start) = match &document.scheme {
+    let (velocity_source, mut feedback, adaptation, mut theta_hat_start) = match &document.scheme {
         SchemeDocument::SlotineLi(gains) => {
             let parts = build::slotine_li::<f64, N, P>(&Lanes(&[gains.clone().unwrap_or_default()]));
             let law = AnyAdaptation::Gradient(parts.1);
@@ -94,6 +94,11 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
     if let Some(scale) = &effects.theta_hat_scale {
         theta_hat_start = nominal.component_mul(&SVector::from_column_slice(scale));
     }
+    let signs = document.signs.clone().unwrap_or_default();
+    if let AnyFeedback::Sliding(law) = &mut feedback {
+        law.gain *= signs.feedback.unwrap_or(1.0);
+        law.lambda *= signs.reference.unwrap_or(1.0);
+    }
     let asked = document.adaptation.as_ref();
     Controller {
         velocity_source: document
@@ -116,6 +121,9 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         }),
         friction_sign: plant.friction_sign,
         theta_hat_start,
+        integral: document.integral.as_ref().filter(|own| own.k_i.iter().any(|k| *k != 0.0)).map(|own| joints(Some(&own.k_i))),
+        model_sign: signs.model.unwrap_or(1.0),
+        adaptation_sign: signs.adaptation.unwrap_or(1.0),
     }
 }
 

@@ -95,6 +95,31 @@ optional_fields! {
     }
 }
 
+/// Integral action beside a scheme's own law: `τ − K_i ∫ e dt`, from zero at the start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::integral))]
+#[serde(deny_unknown_fields)]
+pub struct IntegralDocument {
+    /// K_i per joint, N·m/(rad·s); 0 is none.
+    pub k_i: Vec<f64>,
+}
+
+optional_fields! {
+    /// Factors on the terms of an adaptive scheme: 1 is right, −1 is a misprinted sign, to see what it does.
+    SignsDocument, super::schema::signs {
+        ;
+        /// Of `−K s`; 1 when left out.
+        feedback: f64,
+        /// Of `Λ e` in the reference velocity; likewise.
+        reference: f64,
+        /// Of the model's torque `Y θ̂`; likewise.
+        model: f64,
+        /// Of the estimates' rate; likewise.
+        adaptation: f64,
+    }
+}
+
 /// A controller that runs on a clock.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -172,7 +197,8 @@ optional_fields! {
         payloads: Vec<PayloadDocument>,
         /// More friction near rest.
         stribeck: StribeckDocument,
-        /// Initial estimates as multiples of the robot's nominal parameters, one each; all 0, as in the paper, when left out.
+        /// Initial estimates as multiples of the robot's nominal parameters, one each; all 0, as in the paper, when left out. Of a
+        /// yardstick with nominal parameters: what its model is computed with; all 1 when left out.
         theta_hat_scale: Vec<f64>,
     }
 }

@@ -1,11 +1,13 @@
 //! What the optional parts may say. Fills in defaults where they would otherwise hide in code.
 
-use super::document::{AdaptationDocument, AdaptationKind, EffectsDocument, VelocityDocument, VelocityKind};
+use super::document::{
+    AdaptationDocument, AdaptationKind, EffectsDocument, SignsDocument, VelocityDocument, VelocityKind,
+};
 use super::velocity_kind;
 use crate::robots::{RobotData, payload_parameters};
 use crate::scenario::document::{MethodDocument, ScenarioDocument, SchemeDocument};
 use crate::scenario::error::{Problem, ScenarioError};
-use crate::scenario::gains::ProposedGains;
+use crate::scenario::gains::{ModelParameters, ProposedGains};
 use crate::scenario::validate::{Check, at_most, length, range};
 
 /// Ranges, all inclusive.
@@ -30,6 +32,8 @@ pub(super) mod limits {
     pub const EXCESS_NM: [f64; 2] = [0.0, 1e3];
     pub const STRIBECK_RAD_S: [f64; 2] = [1e-4, 10.0];
     pub const THETA_HAT_SCALE: [f64; 2] = [0.0, 100.0];
+    pub const INTEGRAL_GAIN: [f64; 2] = [0.0, 1e6];
+    pub const SIGN: [f64; 2] = [-1.0, 1.0];
 }
 
 const PER_JOINT: &str = "one per joint of the robot";
@@ -45,12 +49,25 @@ pub(in crate::scenario) fn resolve(document: &mut ScenarioDocument, robot: &Robo
         needs_estimates("/adaptation", &document.scheme)?;
         resolve_adaptation(adaptation)?;
     }
+    if let Some(integral) = &document.integral {
+        let (joints, limits) = (robot.joint_count(), limits::INTEGRAL_GAIN);
+        numbers("/integral/k_i", &integral.k_i, joints, PER_JOINT, limits, "N·m/(rad·s)")?;
+    }
+    if let Some(signs) = &document.signs {
+        needs_estimates("/signs", &document.scheme)?;
+        let SignsDocument { feedback, reference, model, adaptation } = *signs;
+        for (name, sign) in
+            [("feedback", feedback), ("reference", reference), ("model", model), ("adaptation", adaptation)]
+        {
+            optional(&format!("/signs/{name}"), sign, limits::SIGN, "")?;
+        }
+    }
     if let Some(effects) = document.effects.take() {
         check_loads(&effects, robot)?;
         check_sensors(&effects, document)?;
         check_clock(&effects, document)?;
         if let Some(scale) = &effects.theta_hat_scale {
-            needs_estimates("/effects/theta_hat_scale", &document.scheme)?;
+            needs_estimates_or_model("/effects/theta_hat_scale", &document.scheme)?;
             numbers(
                 "/effects/theta_hat_scale",
                 scale,
@@ -211,6 +228,19 @@ fn needs_estimates(pointer: &str, scheme: &SchemeDocument) -> Check {
             conflict(pointer, "has no meaning for a scheme that does not adapt")
         }
     }
+}
+
+/// Whether there are numbers in the model that can be off.
+fn needs_estimates_or_model(pointer: &str, scheme: &SchemeDocument) -> Check {
+    let parameters = match scheme {
+        SchemeDocument::PdGravity(gains) => gains.as_ref().map(|gains| gains.parameters),
+        SchemeDocument::ComputedTorque(gains) => gains.as_ref().map(|gains| gains.parameters),
+        _ => return needs_estimates(pointer, scheme),
+    };
+    if parameters == Some(ModelParameters::True) {
+        return conflict(pointer, "has no meaning beside true parameters; take nominal ones");
+    }
+    Ok(())
 }
 
 fn span(pointer: &str, from_s: Option<f64>, to_s: Option<f64>) -> Check {

@@ -64,6 +64,16 @@ pub(super) fn adaptation(schema: &mut Schema) {
     kinds(schema, &[(&["scheme"], &least_squares), (&["least_squares"], &[])]);
 }
 
+/// Of integral action.
+pub(super) fn integral(schema: &mut Schema) {
+    per_joint(schema, &[("k_i", limits::INTEGRAL_GAIN)]);
+}
+
+/// Of signs.
+pub(super) fn signs(schema: &mut Schema) {
+    ranges(schema, &["feedback", "reference", "model", "adaptation"].map(|name| (name, limits::SIGN)));
+}
+
 /// Of the controller's clock.
 pub(super) fn sampling(schema: &mut Schema) {
     let period = json_schema!({ "anyOf": [{ "const": 0 }, range(limits::PERIOD_S)] });
@@ -121,6 +131,8 @@ mod tests {
         assert_eq!(at("/$defs/SamplingDocument/properties/period_s/anyOf/0/const"), 0);
         assert_eq!(at("/$defs/VelocityDocument/anyOf/0/properties/k_d/type"), "null");
         assert_eq!(at("/$defs/AdaptationDocument/properties/gain_limit/minimum"), 1.0);
+        assert_eq!(at("/$defs/IntegralDocument/properties/k_i/maxItems"), 3);
+        assert_eq!(at("/$defs/SignsDocument/properties/model/minimum"), -1.0);
         assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/minItems"), 1);
         assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/maxItems"), 3);
         assert_eq!(at("/$defs/SchemeDocument/oneOf").as_array().map(Vec::len), Some(6));
