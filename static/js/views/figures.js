@@ -141,8 +141,7 @@ export class Figures {
   viewOf(figure, scale) {
     const { timeline } = this.#app;
     const [from_s, to_s] = timeline.isZoomed ? timeline.window : [null, null];
-    const names = new Map(this.#app.description.schemes.map(({ id, name }) => [id, name]));
-    const live = this.shown.map((id) => ({ id, label: names.get(id), faded: false, color: null }));
+    const live = this.#schemes().map(({ id, name, paint }) => ({ id, label: name, faded: false, color: paint?.() ?? null }));
     const faded = this.overlays.map(({ id, label, color }) => ({ id, label, faded: true, color }));
     const focus = this.runs.some(({ id }) => id === this.focus) ? this.focus : (this.runs[0]?.id ?? null);
     return JSON.stringify({
