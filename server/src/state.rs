@@ -1,6 +1,7 @@
 //! What every request can reach.
 
 use crate::auth::Gate;
+use crate::classroom::Desk;
 use crate::config::Config;
 use crate::events::Hub;
 use crate::guard::Hosts;
@@ -28,6 +29,8 @@ pub struct AppState {
     pub hosts: Hosts,
     /// Who may do what.
     pub gate: Arc<Gate>,
+    /// Classes.
+    pub desk: Arc<Desk>,
     /// Where jobs are watched.
     pub hub: Hub,
     draining: Arc<AtomicBool>,
@@ -45,6 +48,7 @@ impl AppState {
             hosts,
             // Elsewhere than on this machine's own address, anyone may come.
             gate: Arc::new(Gate::new(laboratory.store.clone(), &config.auth, hosts == Hosts::Loopback)),
+            desk: laboratory.desk.clone(),
             hub: Hub::new(laboratory.store.clone()),
             draining: Arc::default(),
         }

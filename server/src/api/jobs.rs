@@ -86,7 +86,8 @@ impl CheckedRequest {
 impl JobRequest {
     /// Checks everything in it. Takes a while for many scenarios: not for an async task.
     pub fn check(self, limits: &Limits, receivers: &Policy) -> Result<CheckedRequest, StudyError> {
-        let Self { kind: JobKind::Study, spec, priority, label, webhook } = self;
+        // There is one kind that can be read.
+        let Self { kind: _, spec, priority, label, webhook } = self;
         if let Some(label) = &label {
             check_label(label).map_err(|problem| ScenarioError::new("/label", problem))?;
         }

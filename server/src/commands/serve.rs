@@ -4,6 +4,7 @@ use super::Failure;
 use super::options::{ComputeOptions, StorageOptions};
 use super::shutdown::Shutdown;
 use crate::config::{Config, Retention};
+use crate::classroom::{Desk, forget_sessions, grade};
 use crate::guard::Hosts;
 use crate::jobs::{JobStore, Queue, collect_garbage};
 use crate::laboratory::{Laboratory, data_folder};
@@ -67,11 +68,13 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         async move { engine.run().await }
     });
     let (end, ending) = watch::channel(false);
+    let grading = tokio::spawn(grade(laboratory.desk.clone(), laboratory.store.clone(), ending.clone()));
     let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
     let upkeep = tokio::spawn(keep_tidy(
         laboratory.store.clone(),
         laboratory.queue.clone(),
         laboratory.results.clone(),
+        laboratory.desk.clone(),
         config.retention.clone(),
     ));
     let measuring = tokio::spawn(metrics::keep_small());
@@ -92,6 +95,9 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         "serving"
     );
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
+    if let Some(link) = laboratory.desk.first_link(&format!("http://{bound}")).await.map_err(Failure::chain)? {
+        print(&format!("The first teacher begins here, once and within a day: {link}\n"))?;
+    }
     let stop = || {
         state.drain();
         engine.stop();
@@ -106,17 +112,28 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     }
     // What is not delivered by then stays in the queue.
     let _ = timeout(CALLS_DRAIN, calling).await;
+    // Nor is a grade that is not written yet: the next server makes it.
+    let _ = timeout(CALLS_DRAIN, grading).await;
     tracing::info!("stopped");
     Ok(())
 }
 
 /// Forgets, now and then, what is older than it should become.
-async fn keep_tidy(store: Arc<dyn JobStore>, queue: Arc<dyn Queue>, results: Results, retention: Retention) {
+async fn keep_tidy(
+    store: Arc<dyn JobStore>,
+    queue: Arc<dyn Queue>,
+    results: Results,
+    desk: Arc<Desk>,
+    retention: Retention,
+) {
     loop {
         sleep(UPKEEP_INTERVAL).await;
         match collect_garbage(&*store, &*queue, &results, &retention).await {
             Ok(forgotten) => tracing::info!(?forgotten, "upkeep"),
             Err(error) => tracing::warn!("upkeep: {error:#}"),
+        }
+        if let Err(error) = forget_sessions(&desk).await {
+            tracing::warn!("upkeep: {error}");
         }
     }
 }

@@ -22,7 +22,8 @@ pub use claim::{Claim, Delivered, Order, StoredResult, Tick};
 pub use engine::Engine;
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;
-pub use sql::connect;
+pub(crate) use sql::{damaged, stored_id, stored_state, stored_time};
+pub use sql::{Stores, connect};
 pub use store::{
     Event, EventKind, Filter, JobStore, NewJob, NewScenario, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };
@@ -39,22 +40,26 @@ use uuid::Uuid;
 pub enum JobKind {
     /// One or more scenarios, each simulated to its end.
     Study,
+    /// The variants of an attempt in a classroom. Nobody can ask for such a job, nor look at one.
+    #[serde(skip)]
+    Grade,
 }
 
 impl JobKind {
-    /// Every kind.
+    /// Every kind that can be asked for.
     pub const ALL: [Self; 1] = [Self::Study];
 
     /// Its name over HTTP and in the database.
     pub fn id(self) -> &'static str {
         match self {
             Self::Study => "study",
+            Self::Grade => "grade",
         }
     }
 
     /// The kind of this name.
     pub fn from_id(id: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.id() == id)
+        Self::ALL.into_iter().chain([Self::Grade]).find(|kind| kind.id() == id)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod change;
 mod claim;
+mod classroom;
 mod keep;
 mod queue;
 mod read;
