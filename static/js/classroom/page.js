@@ -3,9 +3,10 @@
 // A view has `node`, `start()` and `stop()`, and focuses its own heading. `data-state` of the document tells how the page
 // stands: loading, ready, failed; `data-view` which view it is.
 
-import { byId, element } from "../dom.js";
+import { byId, element, fillTexts } from "../dom.js";
 import { buildMasthead } from "../masthead.js";
 import { texts } from "../strings/classroom.js";
+import { strings } from "../strings/index.js";
 import { signOutButton } from "./account.js";
 import { client } from "./client.js";
 import { takeSecret } from "./entry.js";
@@ -30,6 +31,7 @@ export class ClassPage {
     this.#view = view;
     this.#other = other;
     buildMasthead("classroom", title, description);
+    fillTexts({ ...strings, ...texts });
     document.querySelector(".skip-link").addEventListener("click", (event) => {
       // The address says what is shown.
       event.preventDefault();

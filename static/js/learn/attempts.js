@@ -44,11 +44,15 @@ export class Attempts {
     return element(
       "li",
       { class: "attempt", "data-attempt": id, "data-number": number, "data-state": state, "data-points": attempt.points ?? "" },
-      element("p", { class: "attempt-head" }, element("strong", {}, own.number(number)), ` ${result} `, counts ? badge("counts", own.counts) : null),
+      element(
+        "div",
+        { class: "attempt-row" },
+        element("p", { class: "attempt-head" }, element("strong", {}, own.number(number)), ` ${result} `, counts ? badge("counts", own.counts) : null),
+        element("div", { class: "actions" }, take, state === "graded" ? receipt : null),
+      ),
       element("p", { class: "help" }, moment(submitted_at), late_percent > 0 ? `, ${own.late(points(late_percent))}` : ""),
       element("p", { class: "help gains-line" }, gainsLine(gains)),
       state === "returned" ? element("p", {}, own.returned(reason ?? "")) : null,
-      element("div", { class: "actions" }, take, state === "graded" ? receipt : null),
       failure,
     );
   }

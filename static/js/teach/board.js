@@ -157,7 +157,7 @@ function studentsTable({ assignment, students }) {
       "data-student": id,
       "data-points": mark?.points ?? "",
       cells: [
-        [element("a", { href: `#assignment/${assignment.id}/${id}` }, name), extended.has(id) ? badge("extended", texts.list.extended) : ""],
+        [element("a", { href: `#assignment/${assignment.id}/${id}` }, name), extended.has(id) ? badge("extended", own.extended) : ""],
         tried,
         marks,
         last_at ? timeElement(last_at) : points(null),
