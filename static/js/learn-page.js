@@ -1,7 +1,7 @@
 // The students' page: joining a class, its assignments, one exercise, the own account. `learn.html#ID` is an assignment,
 // `learn.html#account` the account; secrets in the address (`#key=`, `#code=`) are taken out of it at once.
 
-import { accountView } from "./classroom/account.js";
+import { AccountView } from "./classroom/account.js";
 import { client } from "./classroom/client.js";
 import { ClassPage } from "./classroom/page.js";
 import { EnterView } from "./learn/enter.js";
@@ -16,7 +16,7 @@ new ClassPage({
   enter: (page, secret) => new EnterView(page, secret),
   view: (place, page) => {
     if (place === "account") {
-      return { node: accountView(() => page.route()), start: () => {}, stop: () => {} };
+      return new AccountView(() => page.route());
     }
     return place ? new ExerciseView(place) : new ListView();
   },

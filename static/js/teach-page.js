@@ -2,7 +2,7 @@
 // `teach.html#class/ID`, `#assignment/ID`, `#assignment/ID/STUDENT`, `#account`; secrets in the address (`#invitation=`,
 // `#key=`) are taken out of it at once.
 
-import { accountView } from "./classroom/account.js";
+import { AccountView } from "./classroom/account.js";
 import { client } from "./classroom/client.js";
 import { ClassPage } from "./classroom/page.js";
 import { texts } from "./strings/classroom.js";
@@ -16,7 +16,7 @@ import { WorkView } from "./teach/work.js";
 function viewOf(place, page) {
   const [kind, id, student] = place.split("/");
   if (kind === "account") {
-    return { node: accountView(() => page.route()), start: () => {}, stop: () => {} };
+    return new AccountView(() => page.route());
   }
   if (kind === "class" && id) {
     return new ClassView(id);

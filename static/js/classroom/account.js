@@ -8,41 +8,47 @@ import { texts } from "../strings/classroom.js";
 import { client } from "./client.js";
 import { actionButton, field, form } from "./form.js";
 import { card, facts, secretLink, showError } from "./parts.js";
+import { View } from "./view.js";
 
 const own = texts.account;
 
-/** The account's view; `changed` is called when the session says something else. */
-export function accountView(changed) {
-  const { session } = client;
-  const failure = element("div", { class: "failure" });
-  const link = element("div", {});
-  const attempt = async (act) => {
-    failure.replaceChildren();
-    try {
-      await act();
-    } catch (error) {
-      showError(failure, error);
-    }
-  };
-  return element(
-    "div",
-    { class: "class-view" },
-    element("p", {}, element("a", { class: "back", href: "#" }, `← ${texts.back}`)),
-    element("h1", { tabindex: "-1" }, own.title),
-    failure,
-    card(
-      own.you,
-      facts([
-        [texts.name, session.name],
-        [texts.login, session.login],
-        [texts.class, session.class?.name],
-      ]),
-      element("div", { class: "actions" }, signOutButton(failure), actionButton(own.signOutEverywhere, failure, () => client.end("sessions"))),
-    ),
-    passwordCard(session, changed),
-    card(own.newLinkTitle, element("p", {}, own.newLinkHelp), newLinkButton(attempt, link, session), link),
-    session.role === "student" ? dataCard(attempt, failure) : null,
-  );
+/** The account; `changed` is called when the session says something else. */
+export class AccountView extends View {
+  #changed;
+
+  constructor(changed) {
+    super();
+    this.#changed = changed;
+  }
+
+  draw() {
+    const { session } = client;
+    const { failure } = this;
+    const link = element("div", {});
+    const attempt = async (act) => {
+      failure.replaceChildren();
+      try {
+        await act();
+      } catch (error) {
+        showError(failure, error);
+      }
+    };
+    const known = facts([
+      [texts.name, session.name],
+      [texts.login, session.login],
+      [texts.class, session.class?.name],
+    ]);
+    const everywhere = actionButton(own.signOutEverywhere, failure, () => client.end("sessions"));
+    this.node.replaceChildren(
+      element("p", {}, element("a", { class: "back", href: "#" }, `← ${texts.back}`)),
+      element("h1", { tabindex: "-1" }, own.title),
+      failure,
+      card(own.you, known, element("div", { class: "actions" }, signOutButton(failure), everywhere)),
+      passwordCard(session, this.#changed),
+      card(own.newLinkTitle, element("p", {}, own.newLinkHelp), newLinkButton(attempt, link, session), link),
+      session.role === "student" ? dataCard(attempt, failure) : "",
+    );
+  }
 }
 
 /** A button that signs out. */

@@ -21,6 +21,7 @@ export class ClassPage {
   #other;
   #shown = null;
   #secret = null;
+  #isFirst = true;
   #place = byId("content");
   #who = byId("who");
 
@@ -77,9 +78,18 @@ export class ClassPage {
     this.#shown = isEntry ? this.#enter(this, this.#secret) : this.#view(place, this);
     root.dataset.view = isEntry ? "enter" : place.split("/")[0] || "home";
     this.#place.replaceChildren(this.#shown.node);
-    this.#shown.start();
-    this.#shown.node.querySelector("h1")?.focus({ preventScroll: true });
     scrollTo(0, 0);
+    this.#begin(this.#shown);
+  }
+
+  /** Starts a view. Whoever came from another one begins at its heading; a page that was just opened at its top. */
+  async #begin(view) {
+    const first = this.#isFirst;
+    this.#isFirst = false;
+    await view.start();
+    if (!first && view === this.#shown && document.activeElement === document.body) {
+      view.node.querySelector("h1")?.focus({ preventScroll: true });
+    }
   }
 
   /** The secret of the address has been used, or is not wanted. */

@@ -23,6 +23,10 @@ export class Attempts {
 
   /** Shows attempts, oldest first as the server gives them. */
   show(attempts) {
+    if (attempts.length === 0) {
+      this.node.replaceChildren(element("li", { class: "help" }, own.none));
+      return;
+    }
     this.node.replaceChildren(...attempts.toReversed().map((attempt) => this.#item(attempt)));
   }
 

@@ -99,11 +99,10 @@ export class ExerciseView {
       pinned,
       card(own.gains, this.#moves.node, this.#resetButton(exercise)),
       card(own.worth, this.#total, this.#feedback, this.#panel.node),
+      card(own.attempts, this.#history.node),
     );
     const figures = figurePlace(own.figures);
-    const work = card(own.attempts, this.#history.node);
-    work.classList.add("work");
-    this.node.append(element("div", { class: "exercise" }, this.#task, controls, figures, work, this.#board?.node ?? ""));
+    this.node.append(element("div", { class: "exercise" }, this.#task, controls, figures, this.#board?.node ?? ""));
     const documents = this.#preview.documents(gains);
     const variants = documents.map((document, n) => ({ id: `variant-${n + 1}`, name: own.variant(n + 1), document }));
     this.#bench = new RunBench(core, variants, figures);

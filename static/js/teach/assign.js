@@ -1,7 +1,7 @@
 // Giving an exercise out, and changing under which conditions: choice of the exercise, deadline, attempts, late policy.
 
 import { check, choice, field, form, numberOf } from "../classroom/form.js";
-import { card, facts } from "../classroom/parts.js";
+import { facts, rendered } from "../classroom/parts.js";
 import { fromLocal, toLocal } from "../classroom/times.js";
 import { element } from "../dom.js";
 import { localized, texts } from "../strings/classroom.js";
@@ -77,17 +77,17 @@ function describe(exercise) {
   if (!exercise) {
     return [element("p", {}, own.noExercises)];
   }
-  const { level, minutes, goal, criteria, moves, teacher_note, hints } = exercise;
+  const { level, minutes, criteria, moves, hints, html } = exercise;
   const list = (items) => element("ul", {}, items.map((item) => element("li", {}, localized(item.label))));
   return [
     facts([
       [own.level, own.levels[level]],
       [own.minutes, texts.exercise.minutes(minutes)],
-      [own.goal, localized(goal)],
+      [own.goal, rendered(localized(html.goal))],
       [own.moves, list(moves)],
       [own.criteria, list(criteria)],
       [own.hintCount, String(hints?.length ?? 0)],
-      [own.note, localized(teacher_note)],
+      [own.note, html.teacher_note ? rendered(localized(html.teacher_note)) : null],
     ]),
   ];
 }

@@ -114,7 +114,7 @@ export class ClassView extends View {
     const place = element("div", {});
     const load = async () => {
       const { entries } = await client.get(`classes/${this.#id}/audit`);
-      const rows = entries.map(({ at, what, data }) => ({ cells: [moment(at), what, element("code", {}, JSON.stringify(data))] }));
+      const rows = entries.map(({ at, what, data }) => ({ cells: [moment(at), own.audited[what] ?? what, element("code", {}, JSON.stringify(data))] }));
       place.replaceChildren(
         rows.length > 0
           ? table({ caption: own.auditCaption, heads: [own.when, own.what, own.data], rows, className: "audit" })

@@ -91,6 +91,7 @@ export const learn = {
   },
 
   attempts: {
+    none: "Nothing has been handed in yet.",
     number: (number) => `Attempt ${number}:`,
     takeBack: "Take these gains",
     takeBackOf: (number) => `Take the gains of attempt ${number}`,

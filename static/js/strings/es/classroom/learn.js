@@ -91,6 +91,7 @@ export const learn = {
   },
 
   attempts: {
+    none: "Aún no se ha entregado nada.",
     number: (number) => `Intento ${number}:`,
     takeBack: "Tomar estas ganancias",
     takeBackOf: (number) => `Tomar las ganancias del intento ${number}`,
