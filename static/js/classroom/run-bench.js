@@ -14,7 +14,10 @@ import { failureOf } from "../wasm.js";
 
 /** Colours of pins, which are no scheme's: as many as there may be visible variants, or nearly. */
 const COLORS = 6;
+/** What schemes without an observer, and schemes that learn nothing, have nothing to show in. */
 const OBSERVER_FIGURES = ["observer_errors"];
+const LEARNING_FIGURES = ["estimates", "parameter_error_norm", "sliding_variables"];
+const YARDSTICKS = ["pd", "pd_gravity", "computed_torque"];
 
 /** Which scenarios are shown, for a laboratory. */
 class Scenarios {
@@ -43,8 +46,7 @@ export class RunBench extends EventTarget {
     scenarios.replace(Object.fromEntries(variants.map(({ id, document }) => [id, document])));
     const runs = new bindings.Runs();
     this.#laboratory = new Laboratory(scenarios, runs);
-    const hasObserver = variants.some(({ document }) => document.scheme.kind === "proposed" || document.velocity !== undefined);
-    const shown = description.figures.filter(({ id }) => hasObserver || !OBSERVER_FIGURES.includes(id));
+    const shown = figuresFor(variants.map(({ document }) => document), description);
     const paint = (n) => () => getComputedStyle(document.documentElement).getPropertyValue(`--pin-${(n % COLORS) + 1}`).trim();
     const schemes = variants.map(({ id, name }, n) => ({
       id,
@@ -108,11 +110,24 @@ export class RunBench extends EventTarget {
     this.#pool.end();
   }
 
+  /** Whether everything shown is that of the newest scenarios. */
+  get isReady() {
+    return this.#laboratory.isReady;
+  }
+
   /** The newest reports in the order of the variants; null where a run failed. */
   get reports() {
     const reports = this.#names.map((id) => this.#laboratory.results[id]?.report);
     return reports.every(Boolean) ? reports : null;
   }
+}
+
+/** The figures that have something to show of these scenarios; their numbers in the paper mean nothing here. */
+function figuresFor(documents, { figures }) {
+  const hasObserver = documents.some(({ scheme, velocity }) => scheme.kind === "proposed" || velocity !== undefined);
+  const learns = documents.some(({ scheme }) => !YARDSTICKS.includes(scheme.kind));
+  const empty = [...(hasObserver ? [] : OBSERVER_FIGURES), ...(learns ? [] : LEARNING_FIGURES)];
+  return figures.filter(({ id }) => !empty.includes(id)).map((figure) => ({ ...figure, paper_number: null }));
 }
 
 /** A place for figures, with a heading that only screen readers need. */

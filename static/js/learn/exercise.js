@@ -36,6 +36,8 @@ export class ExerciseView {
   #preview;
   #bench;
   #moves;
+  /** What runs, or ran last, and what it is worth where that is known. */
+  #gains;
   #grade = null;
   #submission;
   #panel;
@@ -88,6 +90,7 @@ export class ExerciseView {
   #build(core) {
     const { exercise } = this.#assignment;
     const gains = this.#remembered();
+    this.#gains = gains;
     this.#moves = new Moves(exercise.moves, gains, (wanted, move) => this.#change(wanted, move));
     this.#panel = new SubmitPanel(this.#submission, () => this.#moves.read());
     this.#history = new Attempts(this.#assignment.points, (earlier) => this.#takeBack(earlier));
@@ -137,11 +140,7 @@ export class ExerciseView {
       return strings.errors.notANumber(localized(move.label), String(parseTyped(value)));
     }
     try {
-      const documents = this.#preview.documents(gains);
-      save(this.#storage, gains);
-      this.#grade = null;
-      root.dataset.preview = "running";
-      this.#bench.show(documents);
+      this.#run(gains, this.#preview.documents(gains));
       return null;
     } catch (error) {
       return failureOf(error).message;
@@ -150,9 +149,18 @@ export class ExerciseView {
 
   #set(gains) {
     this.#moves.show(gains);
+    this.#run(gains, this.#preview.documents(gains));
+  }
+
+  #run(gains, documents) {
+    this.#gains = gains;
     save(this.#storage, gains);
     root.dataset.preview = "running";
-    this.#bench.show(this.#preview.documents(gains));
+    this.#bench.show(documents);
+    if (this.#bench.isReady) {
+      // The same as before: nothing runs.
+      this.#judge();
+    }
   }
 
   #takeBack(gains) {
@@ -169,7 +177,7 @@ export class ExerciseView {
   /** The newest runs are done: what they are worth. */
   #judge() {
     const { reports } = this.#bench;
-    this.#grade = reports ? this.#preview.grade(this.#moves.read(), reports) : null;
+    this.#grade = reports ? this.#preview.grade(this.#gains, reports) : null;
     this.#showFeedback();
     root.dataset.preview = "ready";
     root.dataset.state = "ready";
