@@ -1,11 +1,11 @@
 //! What the classroom's requests share: its tables, the library, the server's secret, and who may ask how often.
 
-use super::library::Library;
 use super::store::ClassroomStore;
 use super::{problems, secrets};
 use crate::auth::{FailureLimiter, Rate, RateLimiter};
 use crate::config::Config;
 use crate::error::Problem;
+use crate::exercises::{Library, LibraryError};
 use anyhow::Context;
 use axum::http::{HeaderMap, HeaderName, header};
 use jiff::{SignedDuration, Timestamp};
@@ -132,12 +132,8 @@ impl Desk {
 }
 
 /// The exercises that can be given out.
-fn library(config: &Config) -> anyhow::Result<Library> {
-    let library = Library::default();
-    match &config.classroom.exercises {
-        Some(folder) => library.with_folder(folder),
-        None => Ok(library),
-    }
+fn library(config: &Config) -> Result<Library, LibraryError> {
+    config.classroom.exercises.as_deref().map_or_else(Library::shipped, Library::with_folder)
 }
 
 /// Makes a link that makes its first user a teacher, once and within its time.

@@ -27,7 +27,7 @@ mod tests {
 
     #[test]
     fn a_student_s_texts_are_those_of_the_student_s_document() {
-        for exercise in Library::shipped().unwrap().all() {
+        for exercise in Library::shipped().unwrap().iter() {
             let public = html(&exercise.public(Released { attempts: 0, explanation: false })).unwrap();
             let whole = html(exercise.document()).unwrap();
             assert_eq!((&public["explanation"], &public["teacher_note"]), (&Value::Null, &Value::Null));

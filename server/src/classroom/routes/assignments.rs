@@ -9,6 +9,7 @@ use super::super::{model::Role, problems, texts, views};
 use super::{attempts, change, own_assignment, own_class, own_pair, read};
 use crate::api::{JsonBytes, Name};
 use crate::error::Problem;
+use crate::exercises::Library;
 use crate::routes::problems::database;
 use crate::state::AppState;
 use adaptarm_core::scenario::{Problem as Wrong, ScenarioError};
@@ -104,6 +105,11 @@ impl Asked {
     }
 }
 
+/// Identifiers of all exercises, for whoever asked for another.
+fn ids(library: &Library) -> String {
+    library.iter().map(|exercise| exercise.document().id.as_str()).collect::<Vec<_>>().join(", ")
+}
+
 /// Gives an exercise to a class.
 pub(super) async fn create(
     State(state): State<AppState>,
@@ -115,7 +121,7 @@ pub(super) async fn create(
     let asked: Asked = read(&bytes)?;
     let name = asked.exercise.clone();
     let unknown = || {
-        let problem = Wrong::Unknown { value: crate::document::brief(&name), allowed: state.desk.library.ids() };
+        let problem = Wrong::Unknown { value: crate::document::brief(&name), allowed: ids(&state.desk.library) };
         ScenarioError::new("/exercise", problem)
     };
     let document = state.desk.library.get(&name).ok_or_else(unknown)?.document();
