@@ -7,6 +7,7 @@ mod dual;
 mod exercises;
 mod experiments;
 mod imperfections;
+mod integral_and_signs;
 mod lanes;
 mod laws;
 mod reference;

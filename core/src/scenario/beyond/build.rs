@@ -121,7 +121,11 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         }),
         friction_sign: plant.friction_sign,
         theta_hat_start,
-        integral: document.integral.as_ref().filter(|own| own.k_i.iter().any(|k| *k != 0.0)).map(|own| joints(Some(&own.k_i))),
+        integral: document
+            .integral
+            .as_ref()
+            .filter(|own| own.k_i.iter().any(|k| *k != 0.0))
+            .map(|own| joints(Some(&own.k_i))),
         model_sign: signs.model.unwrap_or(1.0),
         adaptation_sign: signs.adaptation.unwrap_or(1.0),
     }
