@@ -15,23 +15,33 @@ const own = texts.replay;
 /** More curves than this in one figure nobody tells apart. */
 const AT_A_TIME = 4;
 
-/** The folded part of an attempt; nothing is computed before it is opened. */
+/** The folded part of an attempt: computed when it is opened, gone when it is closed; one is open at a time. */
 export function replayPart({ number, runs, grade, criteria }) {
   if (!runs || runs.length === 0) {
     return null;
   }
   const place = element("div", { class: "replay" });
-  const fold = element("details", { class: "fold", "data-replay": number }, element("summary", {}, own.title), place);
-  fold.addEventListener("toggle", () => fold.open && place.childElementCount === 0 && open());
+  const fold = element("details", { class: "fold", name: "replay", "data-replay": number }, element("summary", {}, own.title), place);
+  let stop = () => {};
+  fold.addEventListener("toggle", () => (fold.open ? open() : close()));
 
   async function open() {
     place.replaceChildren(element("p", { class: "help" }, own.loading));
     try {
       const core = await loadCore();
-      place.replaceChildren(variants(runs, grade, criteria, core));
+      if (fold.open) {
+        const shown = variants(runs, grade, criteria, core);
+        stop = shown.stop;
+        place.replaceChildren(shown.node);
+      }
     } catch (error) {
       showError(place, error, open);
     }
+  }
+
+  function close() {
+    stop();
+    place.replaceChildren();
   }
   return fold;
 }
@@ -43,12 +53,12 @@ function variants(runs, grade, criteria, core) {
   const failure = element("div", { class: "failure" });
   const rows = runs.map(({ scenario, hidden }, n) => {
     const graded = hidden ? grade?.variants[place(runs, n) - 1] : null;
-    const values = graded ? graded.criteria.map(({ value, share }) => own.value(formatNumber(value, 3), Math.round(100 * share))).join("; ") : "";
+    const numbers = graded ? graded.criteria.map(({ value, share }) => own.value(formatNumber(value, 3), Math.round(100 * share))).join("; ") : "";
     const watch = element("button", { type: "button", "data-run": n, onclick: () => draw([named[n]]) }, own.show);
     const open = canOpen(scenario, core)
       ? actionButton(own.playground, failure, () => toPlayground(scenario), { "data-playground": n })
       : element("span", { class: "help" }, own.notInPlayground);
-    return { cells: [names[n], values, element("div", { class: "actions" }, watch, open)] };
+    return { cells: [names[n], numbers, element("div", { class: "actions" }, watch, open)] };
   });
   const labels = criteria.map(({ label }) => localized(label)).join("; ");
 
@@ -64,13 +74,8 @@ function variants(runs, grade, criteria, core) {
     });
   }
   draw(named.slice(0, AT_A_TIME));
-  return element(
-    "div",
-    { class: "replay" },
-    table({ caption: own.caption(labels), heads: [own.variant, own.values, own.watch], rows }),
-    failure,
-    figures,
-  );
+  const values = table({ caption: own.caption(labels), heads: [own.variant, own.values, own.watch], rows });
+  return { node: element("div", { class: "replay" }, values, failure, figures), stop: () => bench.stop() };
 }
 
 /** A run's number among those of its kind. */

@@ -33,7 +33,10 @@ pub fn a_whole_class_is_graded_and_the_numbers_agree(bench: &Bench) -> Result<()
     marks[2].1 = second_chance(&school, &chiara)?;
     agree(&school, &[&ana, &bruno, &chiara], &marks)?;
     let shown = text(&bruno, "return document.querySelector('.exercise-head').textContent")?;
-    ensure!(shown.contains("set by your teacher") && shown.contains("explained it"), "the override is not told: {shown}");
+    ensure!(
+        shown.contains("set by your teacher") && shown.contains("explained it"),
+        "the override is not told: {shown}"
+    );
     audit(&school)
 }
 
@@ -63,7 +66,9 @@ fn nonsense(school: &School<'_>, page: &Page<'_>) -> Result<f64> {
         ensure!(!wrong.is_empty() && wrong.contains(said), "{typed:?} is answered by {wrong:?}");
     }
     let path = format!("assignments/{}/attempts", school.assignment);
-    for body in [json!({}), json!({ "gains": { "k_p": "x" } }), json!({ "gains": { "nothing": 1 } }), json!({ "points": 100 })] {
+    for body in
+        [json!({}), json!({ "gains": { "k_p": "x" } }), json!({ "gains": { "nothing": 1 } }), json!({ "points": 100 })]
+    {
         let (status, answer) = change(page, "POST", &path, &body)?;
         ensure!(status == 422, "{body} is answered by {status} {answer}");
     }
@@ -87,7 +92,10 @@ fn agree(school: &School<'_>, students: &[&Page<'_>], marks: &[(&str, f64)]) -> 
         let list = api(page, "assignments")?["assignments"][0]["mark"]["points"].as_f64();
         let entry = board["students"].as_array().and_then(|all| all.iter().find(|one| one["name"] == *name));
         let entry = entry.with_context(|| format!("{name} is not on the board"))?;
-        let row = format!("return document.querySelector('.roster [data-student=\"{}\"]').dataset.points", entry["id"].as_str().unwrap_or_default());
+        let row = format!(
+            "return document.querySelector('.roster [data-student=\"{}\"]').dataset.points",
+            entry["id"].as_str().unwrap_or_default()
+        );
         let seen = number(teacher, &row)?;
         let line = csv.lines().find(|line| line.contains(name)).context("not in the gradebook")?;
         let booked = line.split(',').any(|cell| cell.trim_matches('"').parse() == Ok(*points));
@@ -125,7 +133,8 @@ fn replay(school: &School<'_>, ana: &Page<'_>) -> Result<()> {
     let student = text(page, "return location.hash.split('/')[2]")?;
     let answer = api(page, &format!("assignments/{}/students/{student}", school.assignment))?;
     let attempt = &answer["attempts"][0];
-    let hidden: Vec<_> = attempt["runs"].as_array().context("no runs")?.iter().filter(|run| run["hidden"] == true).collect();
+    let hidden: Vec<_> =
+        attempt["runs"].as_array().context("no runs")?.iter().filter(|run| run["hidden"] == true).collect();
     let graded: Vec<_> = attempt["grade"]["variants"].as_array().context("no variants")?.iter().collect();
     ensure!(!hidden.is_empty() && hidden.len() == graded.len(), "{} runs, {} grades", hidden.len(), graded.len());
     let mut hashes = Vec::new();
@@ -203,6 +212,9 @@ fn audit(school: &School<'_>) -> Result<()> {
     teacher.wait_for("return document.querySelectorAll('.audit tbody tr').length >= 4")?;
     let entries = api(teacher, &format!("classes/{class}/audit"))?;
     let shown = teacher.run("return document.querySelectorAll('.audit tbody tr').length", &[])?;
-    ensure!(entries["entries"].as_array().map(Vec::len) == shown.as_u64().map(|count| count as usize), "{shown}: {entries}");
+    ensure!(
+        entries["entries"].as_array().map(Vec::len) == shown.as_u64().map(|count| count as usize),
+        "{shown}: {entries}"
+    );
     Ok(())
 }

@@ -89,7 +89,9 @@ fn busy<'a>(school: &School<'a>, screen: Screen) -> Result<(Page<'a>, Page<'a>)>
 
 fn unfold(page: &Page<'_>) -> Result<()> {
     page.run("for (const details of document.querySelectorAll('main details')) details.open = true", &[])?;
-    page.wait_for("return document.querySelector('.replay .help') === null || document.querySelector('[data-hashes]') !== null")
+    page.wait_for(
+        "return document.querySelector('.replay .help') === null || document.querySelector('[data-hashes]') !== null",
+    )
 }
 
 /// The places of a busy class, and the first student's work.
@@ -98,7 +100,8 @@ fn visit(
     (student, teacher): (&Page<'_>, &Page<'_>),
     look: &dyn Fn(&Page<'_>, &str) -> Result<()>,
 ) -> Result<()> {
-    let id = api(teacher, &format!("classes/{}", school.class))?["students"][0]["id"].as_str().context("nobody")?.to_owned();
+    let id =
+        api(teacher, &format!("classes/{}", school.class))?["students"][0]["id"].as_str().context("nobody")?.to_owned();
     let work = (true, format!("teach.html#assignment/{}/{id}", school.assignment));
     for (is_teacher, path) in places(school).into_iter().chain([work]) {
         let page = if is_teacher { teacher } else { student };
@@ -122,7 +125,8 @@ pub fn the_classroom_fits_a_phone(bench: &Bench) -> Result<()> {
             let small = page.run(SMALL, &[])?;
             ensure!(small == json!([]), "{path} in {language} is too small for a finger: {small}");
         }
-        let name = path.split(['.', '#', '/']).filter(|part| part.len() < 12 && *part != "html").collect::<Vec<_>>().join("-");
+        let name =
+            path.split(['.', '#', '/']).filter(|part| part.len() < 12 && *part != "html").collect::<Vec<_>>().join("-");
         save(page, &format!("classroom-phone-{name}"))
     };
     visit(&school, (&student, &teacher), &fits)

@@ -86,10 +86,7 @@ pub const ALL: &[(&str, Case)] = &[
     ("experiments_fit_a_phone_in_both_languages", experiments::experiments_fit_a_phone_in_both_languages),
     ("a_study_is_submitted_by_hand", jobs::a_study_is_submitted_by_hand),
     ("the_jobs_page_fits_a_phone", jobs::the_jobs_page_fits_a_phone),
-    (
-        "a_whole_class_is_graded_and_the_numbers_agree",
-        classroom::a_whole_class_is_graded_and_the_numbers_agree,
-    ),
+    ("a_whole_class_is_graded_and_the_numbers_agree", classroom::a_whole_class_is_graded_and_the_numbers_agree),
     ("the_classroom_goes_by_keyboard", classroom_pages::the_classroom_goes_by_keyboard),
     ("the_classroom_fits_a_phone_in_both_languages", classroom_pages::the_classroom_fits_a_phone),
     ("whoever_leaves_the_classroom_comes_back_or_is_erased", classroom_pages::whoever_leaves_comes_back_or_is_erased),

@@ -98,7 +98,9 @@ fn become_teacher(page: &Page<'_>, server: &Server) -> Result<()> {
 
 /// The personal link is shown once, before anything else.
 fn keep_link(page: &Page<'_>) -> Result<()> {
-    page.wait_for("return document.getElementById('link-kept') !== null || document.querySelector('.message.error') !== null")?;
+    page.wait_for(
+        "return document.getElementById('link-kept') !== null || document.querySelector('.message.error') !== null",
+    )?;
     let link = text(page, "return document.querySelector('.secret')?.textContent ?? document.body.innerText")?;
     ensure!(link.contains("#key="), "no personal link: {link}");
     page.click("#link-kept")
