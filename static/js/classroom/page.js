@@ -4,6 +4,7 @@
 // stands: loading, ready, failed; `data-view` which view it is.
 
 import { byId, element, fillTexts } from "../dom.js";
+import { jump } from "../jump.js";
 import { buildMasthead } from "../masthead.js";
 import { texts } from "../strings/classroom.js";
 import { strings } from "../strings/index.js";
@@ -33,11 +34,7 @@ export class ClassPage {
     this.#other = other;
     buildMasthead("classroom", title, description);
     fillTexts({ ...strings, ...texts });
-    document.querySelector(".skip-link").addEventListener("click", (event) => {
-      // The address says what is shown.
-      event.preventDefault();
-      this.#place.focus();
-    });
+    document.addEventListener("click", (event) => jump(event));
     addEventListener("hashchange", () => this.#moved());
     addEventListener("online", () => this.#online());
     addEventListener("offline", () => this.#online());
