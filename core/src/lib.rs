@@ -14,8 +14,8 @@ pub mod control;
 pub mod decomposition;
 pub mod diagnostics;
 pub mod dynamics;
-mod eigen;
 pub mod effects;
+mod eigen;
 pub mod exercises;
 pub mod experiments;
 #[cfg(feature = "figures")]

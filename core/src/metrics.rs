@@ -123,7 +123,9 @@ impl Metrics {
             control_effort_n2m2s: tau_rms_nm.iter().map(|tau| tau * tau * recorded_s).collect(),
             settling_e_s: settling(Signal::Error, SETTLING_BAND_DEG),
             settling_de_s: settling(Signal::ErrorRate, SETTLING_BAND_DEG_S),
-            ultimate_bound_e_deg: per_joint(&|joint| ultimate_bound(signal(Signal::Error, joint), TAIL_SHARE).to_degrees()),
+            ultimate_bound_e_deg: per_joint(&|joint| {
+                ultimate_bound(signal(Signal::Error, joint), TAIL_SHARE).to_degrees()
+            }),
             tau_variation_nm_s: per_joint(&|joint| {
                 let variation = total_variation(signal(Signal::Torque, joint));
                 if recorded_s > 0.0 { variation / recorded_s } else { 0.0 }

@@ -168,7 +168,11 @@ impl Recording {
     }
 
     /// One component of a signal (0 is the first), SI units.
-    pub fn signal(&self, signal: Signal, component: usize) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
+    pub fn signal(
+        &self,
+        signal: Signal,
+        component: usize,
+    ) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.column(self.columns.start(signal) + component)
     }
 

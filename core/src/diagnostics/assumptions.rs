@@ -76,7 +76,9 @@ pub(super) fn violations<R: Robot<N, P>, const N: usize, const P: usize>(
     );
     list.throughout(system.sampling.is_none(), "continuous_controller", "the controller is sampled, its torque held");
     list.throughout(
-        system.sensing.encoder_step == 0.0 && system.sensing.position_noise == 0.0 && system.sensing.velocity_noise == 0.0,
+        system.sensing.encoder_step == 0.0
+            && system.sensing.position_noise == 0.0
+            && system.sensing.velocity_noise == 0.0,
         "exact_measurement",
         "encoders count or sensors are noisy",
     );

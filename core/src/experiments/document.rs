@@ -4,6 +4,7 @@
 //! pointer; `*` at its end stands for every element of a list.
 
 use super::distribution::DistributionDocument;
+use super::replication::ReplicationDocument;
 use crate::scenario::ScenarioDocument;
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +43,9 @@ pub struct ExperimentDocument {
     /// Where the best values are searched.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tuning: Option<TuningDocument>,
+    /// Where what the paper leaves unsaid is searched against its numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub replication: Option<ReplicationDocument>,
 }
 
 fn default_confidence() -> f64 {
@@ -61,6 +65,8 @@ pub enum ExperimentKind {
     Compare,
     /// Search for the best values.
     Tuning,
+    /// Search for what the paper leaves unsaid.
+    Replication,
 }
 
 /// A scenario with a name.

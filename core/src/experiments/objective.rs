@@ -131,7 +131,18 @@ impl TuningPlan {
         check_range("/tuning/initial_step", document.initial_step, [1e-4, 1.0], "of the range")?;
         let (evaluations, restarts) = (u64::from(document.evaluations), document.restarts);
         let initial_step = document.initial_step;
-        Ok(Self { seed, variables, goals, objectives, constraints, plants, population, evaluations, restarts, initial_step })
+        Ok(Self {
+            seed,
+            variables,
+            goals,
+            objectives,
+            constraints,
+            plants,
+            population,
+            evaluations,
+            restarts,
+            initial_step,
+        })
     }
 
     /// Plants of a set.

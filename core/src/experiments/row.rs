@@ -57,6 +57,11 @@ impl ResultColumns {
         Self { names: METRICS.iter().flat_map(of_metric).collect(), joints }
     }
 
+    /// Of a replication, which has other numbers: those that its readings ask for.
+    pub(super) fn of_replication(names: Vec<String>) -> Self {
+        Self { names, joints: 0 }
+    }
+
     /// Their names: `index_e_deg` over all joints, `index_e_deg_1` of the first.
     pub fn names(&self) -> &[String] {
         &self.names
@@ -135,6 +140,12 @@ impl Row {
     pub(super) fn of(index: u64, columns: &ResultColumns, report: &Report) -> Self {
         let completed = report.outcome == OutcomeKind::Completed;
         let metrics = if completed { columns.of(&report.metrics) } else { vec![None; columns.names.len()] };
+        Self::with(index, report, metrics)
+    }
+
+    /// Of a run that was made, with other numbers.
+    pub(super) fn with(index: u64, report: &Report, metrics: Vec<Option<f64>>) -> Self {
+        let completed = report.outcome == OutcomeKind::Completed;
         let outcome = if completed { RowOutcome::Completed } else { RowOutcome::Diverged };
         Self { index, outcome, at_s: report.at_s, refusal: None, metrics }
     }

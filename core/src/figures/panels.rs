@@ -82,10 +82,9 @@ pub(super) fn panels(figure: Figure, robot: &RobotData, runs: &[PlottedRun<'_>],
             ("λ along q_d [N²·m²]", Traced::DesiredExcitation),
         ]),
         Figure::Lyapunov => builder.traced(&[("V", Traced::Lyapunov), ("dV/dt [1/s]", Traced::LyapunovRate)]),
-        Figure::ParameterErrorParts => builder.traced(&[
-            ("‖x excited‖", Traced::ExcitedError),
-            ("‖x unexcited‖", Traced::UnexcitedError),
-        ]),
+        Figure::ParameterErrorParts => {
+            builder.traced(&[("‖x excited‖", Traced::ExcitedError), ("‖x unexcited‖", Traced::UnexcitedError)])
+        }
         Figure::Energy => builder.traced(&[
             ("T [J]", Traced::Kinetic),
             ("U − U(0) [J]", Traced::Potential),

@@ -48,7 +48,17 @@ pub(super) enum Quantity {
 impl<'a> PlottedRun<'a> {
     /// A live run with its scheme's own look.
     pub fn new(scheme: Scheme, recording: &'a Recording, completed: bool, theta_true: &'a [f64]) -> Self {
-        Self { scheme, recording, completed, theta_true, parts: None, trace: None, label: None, faded: false, color: None }
+        Self {
+            scheme,
+            recording,
+            completed,
+            theta_true,
+            parts: None,
+            trace: None,
+            label: None,
+            faded: false,
+            color: None,
+        }
     }
 
     /// Its name in legends.

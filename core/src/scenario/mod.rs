@@ -212,7 +212,8 @@ impl Scenario {
         if let Some(motors) = elasticity.map(|elasticity| &elasticity.motor_inertia_kgm2)
             && !build::has_positive_inertia(robot, &theta, Some(motors))
         {
-            let message = "is more than the arm's inertia everywhere allows: nothing would be left of the links".to_owned();
+            let message =
+                "is more than the arm's inertia everywhere allows: nothing would be left of the links".to_owned();
             return Err(ScenarioError::new("/effects/elasticity/motor_inertia_kgm2", Problem::Conflict { message }));
         }
         Ok(scenario)

@@ -1,7 +1,8 @@
 //! The closed loop of an arm with imperfections and any controller: two sides, and what crosses between them.
 //!
-//! State vector: q, q̇ | the controller's | what is held. Held are, from sample to sample, the torque command at the actuator, the
-//! one on its way, and the z and s of the last sample; from step to step, the payload's mass and whether the disturbance acts.
+//! State vector: q, q̇ | the controller's | what is held | the motors' angles and velocities, if joints are elastic. Held are, from sample
+//! to sample, the torque command at the actuator, the one on its way, and the z and s of the last sample; from step to step, the
+//! payload's mass and whether the disturbance acts.
 //! All of it is in the state, so a paused run needs nothing else. `docs/decisions/0016-imperfect-loop.md` tells why this is not
 //! [`super::ClosedLoop`], which computes the same bits where there is no imperfection.
 

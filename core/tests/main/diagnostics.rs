@@ -74,8 +74,7 @@ fn the_gradient_laws_lyapunov_function_falls_as_proved() {
 fn computed_torque_is_its_linear_oscillator_and_excites_as_desired() {
     for robot in ROBOTS {
         let n = joints(robot);
-        let gains =
-            ComputedTorqueGains { parameters: ModelParameters::True, k_p: vec![100.0; n], k_d: vec![20.0; n] };
+        let gains = ComputedTorqueGains { parameters: ModelParameters::True, k_p: vec![100.0; n], k_d: vec![20.0; n] };
         let (diagnostics, ..) = diagnose(document(robot, SchemeDocument::ComputedTorque(Some(gains)), 4.0, 1000));
         assert_eq!(assumptions(&diagnostics), Vec::<&str>::new());
         let (desired, actual) = (diagnostics.desired_excitation.unwrap(), diagnostics.actual_excitation.unwrap());
@@ -102,7 +101,8 @@ fn a_pendulum_at_rest_shows_gravity_alone() {
     assert!(!meter.is_persistent && meter.rank == 1 && meter.worst_window_n2m2 == 0.0);
     // θ4 sin 30°, squared, with θ4 of 4.905 N·m.
     assert!((meter.eigenvalues_n2m2[3] - 0.25 * 4.905 * 4.905).abs() < 1e-9, "{:?}", meter.eigenvalues_n2m2);
-    let named: Vec<_> = meter.unidentifiable.iter().map(|found| (found.terms.len(), &*found.terms[0].parameter)).collect();
+    let named: Vec<_> =
+        meter.unidentifiable.iter().map(|found| (found.terms.len(), &*found.terms[0].parameter)).collect();
     assert_eq!(named.len(), 3);
     assert!(["θ1", "θ2", "θ3"].iter().all(|symbol| named.contains(&(1, symbol))), "{named:?}");
     let split = diagnostics.parameter_error.unwrap();
@@ -133,11 +133,8 @@ fn a_pendulum_at_rest_shows_gravity_alone() {
         let (mean, root) = (0.5 * (a + c), (0.25 * (a - c) * (a - c) + b * b).sqrt());
         [mean - root, mean + root]
     };
-    let conservative = pair(
-        inertia * inertia / 8.0,
-        -0.5 * j1_half * inertia * gravity,
-        gravity * gravity * 0.5 * (1.0 - j0_one),
-    );
+    let conservative =
+        pair(inertia * inertia / 8.0, -0.5 * j1_half * inertia * gravity, gravity * gravity * 0.5 * (1.0 - j0_one));
     let friction = pair(viscous * viscous / 8.0, viscous * coulomb / std::f64::consts::PI, coulomb * coulomb);
     let mut expected = [conservative, friction].concat();
     expected.sort_by(f64::total_cmp);

@@ -5,8 +5,8 @@ use adaptarm_core::dynamics::FrictionSign;
 use adaptarm_core::recording::Signal;
 use adaptarm_core::robots::{Robot, TwoLink, robot};
 use adaptarm_core::scenario::{
-    AdaptationDocument, AdaptationKind, EffectsDocument, OutcomeKind, Run, SamplingDocument, Scenario, ScenarioDocument,
-    SchemeDocument, TrajectoryDocument, TrajectoryKind,
+    AdaptationDocument, AdaptationKind, EffectsDocument, OutcomeKind, Run, SamplingDocument, Scenario,
+    ScenarioDocument, SchemeDocument, TrajectoryDocument, TrajectoryKind,
 };
 use nalgebra::{DMatrix, DVector, SVector, Vector2};
 
@@ -46,18 +46,28 @@ fn moves_then_rest(points: &[&[f64]]) -> TrajectoryDocument {
     }
 }
 
-/// After the last move the gradient law learns nothing more; concurrent learning goes on until it knows everything.
+/// After the last move nothing is excited any more. What the gradient law does not know by then it hardly learns; concurrent learning goes
+/// on until it knows everything. An independent program gives the two-link arm 0.0028 after 14 s, and with a weight of 10 no solution:
+/// Γ γ Yf² is then beyond what steps of 1 ms can follow.
 #[test]
 fn concurrent_learning_needs_no_persistent_excitation() {
     let ways: [(&str, &[&[f64]], f64); 2] = [
-        ("pendulum", &[&[60.0], &[-40.0], &[80.0], &[20.0], &[-60.0], &[30.0]], 0.02),
+        ("pendulum", &[&[60.0], &[-40.0], &[80.0], &[20.0], &[-60.0], &[30.0]], 10.0),
         (
             "two_link",
-            &[&[0.0, 0.0], &[60.0, 30.0], &[-30.0, 90.0], &[40.0, -60.0], &[90.0, 40.0], &[10.0, 80.0], &[-20.0, -40.0]],
-            0.6,
+            &[
+                &[0.0, 0.0],
+                &[60.0, 30.0],
+                &[-30.0, 90.0],
+                &[40.0, -60.0],
+                &[90.0, 40.0],
+                &[10.0, 80.0],
+                &[-20.0, -40.0],
+            ],
+            3.0,
         ),
     ];
-    for (id, points, bound) in ways {
+    for (id, points, weight) in ways {
         let learned = |adaptation: Option<AdaptationDocument>, duration_s| {
             let mut document = document(id, adaptation, duration_s);
             document.trajectory = moves_then_rest(points);
@@ -65,16 +75,16 @@ fn concurrent_learning_needs_no_persistent_excitation() {
         };
         let concurrent = AdaptationDocument {
             kind: AdaptationKind::Concurrent,
-            weight: Some(10.0),
+            weight: Some(weight),
             record_every_s: Some(0.02),
             stack: Some(40),
             ..Default::default()
         };
-        let gradient = [10.0, 30.0].map(|duration_s| learned(None, duration_s));
-        let stack = [10.0, 30.0].map(|duration_s| learned(Some(concurrent.clone()), duration_s));
-        println!("{id}: gradient {gradient:?}, concurrent {stack:?}");
-        assert!((gradient[0] - gradient[1]).abs() < 0.02 * gradient[0], "{id}: at rest a gradient law learns nothing");
-        assert!(stack[1] < bound && stack[1] < 0.7 * stack[0] && stack[1] < 0.5 * gradient[1], "{id}: {stack:?}");
+        let gradient = learned(None, 20.0);
+        let stack = [7.0, 20.0].map(|duration_s| learned(Some(concurrent.clone()), duration_s));
+        println!("{id}: gradient {gradient}, concurrent {stack:?}");
+        assert!(gradient > 0.3, "{id}: {gradient}");
+        assert!(stack[1] < 0.01 && stack[1] < 0.2 * stack[0], "{id}: {stack:?}");
     }
 }
 
@@ -106,7 +116,7 @@ fn concurrent_learning_is_its_equation() {
         assert_eq!(Law::recorded(&states), n);
         let sign = FrictionSign::True.of(&velocity);
         let torque = Vector2::zeros();
-        moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, &states, &mut vec![0.0; FILTER]));
+        moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, &states, &mut [0.0; FILTER]));
     }
     let (geometry, velocity) = at(5);
     let gradient = SVector::<f64, 11>::from_fn(|k, _| 0.1 * k as f64 - 0.3);
@@ -139,11 +149,8 @@ fn concurrent_learning_is_its_equation() {
 #[test]
 fn with_drem_every_parameter_error_falls_by_itself() {
     for (id, floor, bound) in [("pendulum", 1e-3, 1e-3), ("two_link", 1e-4, 1e-2)] {
-        let drem = AdaptationDocument {
-            kind: AdaptationKind::Drem,
-            excitation_floor: Some(floor),
-            ..Default::default()
-        };
+        let drem =
+            AdaptationDocument { kind: AdaptationKind::Drem, excitation_floor: Some(floor), ..Default::default() };
         let run = run(document(id, Some(drem), 10.0));
         let left = norm(&errors(&run, id));
         println!("{id}: {left}");

@@ -54,7 +54,7 @@ enum Command {
     Presets(presets::Arguments),
     /// Regenerate the published study: tables, claims, figures and a report in a folder.
     Replicate(ReplicateArgs),
-    /// Make the runs of an experiment: a sweep, a Monte Carlo study, a comparison of schemes, or a tuning.
+    /// Make the runs of an experiment: a sweep, a Monte Carlo study, a comparison, a tuning, or a replication search.
     Experiment(experiment::Arguments),
     /// List, check, calibrate and grade exercises.
     Exercise(exercise::Arguments),

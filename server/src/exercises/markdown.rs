@@ -61,7 +61,11 @@ fn is_allowed(address: &str) -> bool {
 }
 
 fn mathml(tex: &str, display_mode: DisplayMode) -> Result<String, MarkdownError> {
-    let wrong = |message: String| MarkdownError::Formula { formula: tex.to_owned(), message };
+    // Below the first line the parser draws where it was.
+    let wrong = |told: String| MarkdownError::Formula {
+        formula: tex.to_owned(),
+        message: told.lines().next().unwrap_or_default().to_owned(),
+    };
     let storage = Storage::new();
     let events = pulldown_latex::Parser::new(tex, &storage).collect::<Result<Vec<_>, _>>();
     let events = events.map_err(|error| wrong(error.to_string()))?;
@@ -80,7 +84,8 @@ mod tests {
     fn formulas_become_mathml() {
         let page = to_html("With $K_p e$ and\n\n$$\\tau = -K_p e$$\n").unwrap();
         assert!(page.contains("<math") && page.contains("<msub>") && page.contains("display=\"block\""), "{page}");
-        assert!(matches!(to_html("$\\frac{1$").unwrap_err(), MarkdownError::Formula { .. }));
+        let error = to_html("$\\notacommand x$").unwrap_err().to_string();
+        assert!(error.starts_with("formula \"\\\\notacommand x\": ") && error.lines().count() == 1, "{error}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::document::{FileError, brief, read_file};
 use adaptarm_core::exercises::Exercise;
-use adaptarm_core::scenario::{ReadError, ScenarioError};
+use adaptarm_core::scenario::{Problem, ReadError, ScenarioError, in_plain_words};
 use std::path::Path;
 use thiserror::Error;
 
@@ -15,7 +15,7 @@ pub enum ExerciseError {
     /// Not UTF-8.
     #[error("is not UTF-8 text: {0}")]
     Encoding(#[from] std::str::Utf8Error),
-    /// Not TOML, or a field is missing, doubled or of another kind.
+    /// Not TOML.
     #[error("{0}")]
     Syntax(String),
     /// Readable, but not allowed.
@@ -36,10 +36,30 @@ pub fn read(path: &Path) -> Result<Exercise, ExerciseError> {
 
 /// Reads and checks an exercise.
 pub fn parse(text: &str) -> Result<Exercise, ExerciseError> {
-    let syntax = |error: toml::de::Error| ExerciseError::Syntax(format!("not TOML: {}", brief(&error.to_string())));
-    let document = toml::Deserializer::parse(text).map_err(syntax)?;
+    let document = toml::Deserializer::parse(text).map_err(|error| {
+        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        ExerciseError::Syntax(format!("not TOML: {} at line {line}", brief(error.message())))
+    })?;
     Exercise::read(document).map_err(|error| match error {
         ReadError::Invalid(error) => ExerciseError::Invalid(error),
-        ReadError::Document { .. } => ExerciseError::Syntax(brief(&error.to_string())),
+        ReadError::Document { pointer, source } => {
+            let message = brief(&in_plain_words(source.message()));
+            ExerciseError::Invalid(ScenarioError::new(pointer, Problem::Malformed { message }))
+        }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mistakes_have_their_place() {
+        let error = |text: &str| parse(text).unwrap_err().to_string();
+        assert!(error("a = 1\nb = ").starts_with("not TOML: ") && error("a = 1\nb = ").ends_with(" at line 2"));
+        assert!(error("minutes = \"long\"").starts_with("minutes: invalid type: string \"long\", expected"));
+        assert_eq!(error(""), "exercise: missing field `format`");
+        assert!(error("extra = 1").starts_with("extra: unknown field `extra`"));
+    }
 }

@@ -5,6 +5,7 @@ use super::Picture;
 use super::checkpoint::replace;
 use crate::figures::PictureFormat;
 use crate::series::parquet;
+use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
 use anyhow::Result;
 use serde::Serialize;
@@ -16,6 +17,8 @@ use std::path::Path;
 pub enum Found {
     /// Of a sweep, a Monte Carlo study or a comparison: the rows and what they say.
     Rows(Results, Box<Summary>),
+    /// Of a replication: the rows and what they say.
+    Readings(Results, Box<ReplicationSummary>),
     /// Of a tuning: its search.
     Search(Box<Tuning>),
 }
@@ -42,10 +45,12 @@ pub enum File {
 impl File {
     /// Those that an experiment has.
     pub fn of(experiment: &Experiment) -> &'static [Self] {
-        if experiment.runs().is_some() {
-            &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet]
-        } else {
-            &[Self::Experiment, Self::Summary, Self::Best, Self::Generations, Self::Front]
+        match &experiment.document().tuning {
+            None => &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet],
+            Some(tuning) if tuning.objectives.is_empty() => {
+                &[Self::Experiment, Self::Summary, Self::Best, Self::Generations]
+            }
+            Some(_) => &[Self::Experiment, Self::Summary, Self::Best, Self::Generations, Self::Front],
         }
     }
 
@@ -76,9 +81,12 @@ impl File {
         Ok(Some(match (self, found) {
             (Self::Experiment, _) => json(experiment.document())?,
             (Self::Summary, Found::Rows(_, summary)) => json(summary)?,
+            (Self::Summary, Found::Readings(_, summary)) => json(summary)?,
             (Self::Summary, Found::Search(tuning)) => json(&tuning.summary(experiment))?,
-            (Self::RunsCsv, Found::Rows(results, _)) => csv(experiment, results).into_bytes(),
-            (Self::RunsParquet, Found::Rows(results, _)) => table(experiment, results)?,
+            (Self::RunsCsv, Found::Rows(results, _) | Found::Readings(results, _)) => {
+                csv(experiment, results).into_bytes()
+            }
+            (Self::RunsParquet, Found::Rows(results, _) | Found::Readings(results, _)) => table(experiment, results)?,
             (Self::Best, Found::Search(tuning)) => match tuning.best_scenario(experiment) {
                 Some(best) => json(best.document())?,
                 None => return Ok(None),
@@ -89,7 +97,7 @@ impl File {
                 None => return Ok(None),
             },
             (Self::RunsCsv | Self::RunsParquet, Found::Search(_))
-            | (Self::Best | Self::Generations | Self::Front, Found::Rows(..)) => {
+            | (Self::Best | Self::Generations | Self::Front, Found::Rows(..) | Found::Readings(..)) => {
                 return Ok(None);
             }
         }))

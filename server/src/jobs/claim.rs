@@ -157,6 +157,10 @@ pub struct StoredResult {
     pub checksum: String,
     /// Whether it is the shard's last.
     pub last: bool,
+    /// Steps of it that ticks have counted.
+    pub counted: i64,
+    /// Steps that they have counted of scenarios computed together with it, which are still to be delivered.
+    pub counted_of_others: i64,
 }
 
 /// What became of a delivered result.

@@ -25,14 +25,14 @@ const TOLD_GROUPS: usize = 64;
 /// Metrics that it tells of.
 const TOLD_METRICS: [&str; 4] = ["index_e_deg", "index_de_deg_s", "tau_peak_nm", "settling_e_s"];
 
-impl From<ExperimentKind> for JobKind {
-    fn from(kind: ExperimentKind) -> Self {
-        match kind {
-            ExperimentKind::Sweep => Self::Sweep,
-            ExperimentKind::MonteCarlo => Self::MonteCarlo,
-            ExperimentKind::Compare => Self::Compare,
-            ExperimentKind::Tuning => Self::Tuning,
-        }
+/// The job that does such an experiment; a replication search is the command line's alone.
+fn job_kind(kind: ExperimentKind) -> Option<JobKind> {
+    match kind {
+        ExperimentKind::Sweep => Some(JobKind::Sweep),
+        ExperimentKind::MonteCarlo => Some(JobKind::MonteCarlo),
+        ExperimentKind::Compare => Some(JobKind::Compare),
+        ExperimentKind::Tuning => Some(JobKind::Tuning),
+        ExperimentKind::Replication => None,
     }
 }
 
@@ -51,9 +51,12 @@ impl ExperimentJob {
         pointer: &str,
         limits: &Limits,
     ) -> Result<Self, StudyError> {
-        let found = JobKind::from(document.kind);
-        if found != kind {
-            let message = format!("is {}, but the job's kind is {}", found.id(), kind.id());
+        let found = job_kind(document.kind);
+        if found != Some(kind) {
+            let message = match found {
+                Some(found) => format!("is {}, but the job's kind is {}", found.id(), kind.id()),
+                None => "is done by the command line alone: adaptarm experiment FILE".to_owned(),
+            };
             return Err(ScenarioError::new(format!("{pointer}/kind"), Problem::Conflict { message }).into());
         }
         let experiment = Experiment::new(document).map_err(|error| error.within(pointer))?;

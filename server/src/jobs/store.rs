@@ -233,15 +233,8 @@ pub trait JobStore: Send + Sync + 'static {
     /// Prolongs the lease, notes how far the shard is, and asks whether to go on.
     async fn tick(&self, claim: &Claim, tick: Tick, lease: Duration, limits: &Limits) -> Result<Order, StoreError>;
 
-    /// Notes a scenario's result; the last one ends the job. So many of its steps were counted by ticks, and so much
-    /// computing time has passed since the last one.
-    async fn deliver(
-        &self,
-        claim: &Claim,
-        result: &StoredResult,
-        counted: i64,
-        computed: Duration,
-    ) -> Result<Delivered, StoreError>;
+    /// Notes a scenario's result; the last one ends the job. So much computing time has passed since the last tick.
+    async fn deliver(&self, claim: &Claim, result: &StoredResult, computed: Duration) -> Result<Delivered, StoreError>;
 
     /// Keeps the rows of an experiment's part; the last ones of a step have it folded.
     async fn deliver_runs(

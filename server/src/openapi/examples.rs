@@ -50,10 +50,24 @@ fn job(state: JobState) -> JobView {
     })
 }
 
-fn result() -> Result<Value, ScenarioError> {
+fn scenario() -> Result<Scenario, ScenarioError> {
     let mut document = Scheme::Proposed.paper();
     (document.integration.duration_s, document.recording.samples) = (0.5, 100);
-    let report = Scenario::new(document)?.run().report;
+    Scenario::new(document)
+}
+
+fn diagnostics() -> Result<Value, ScenarioError> {
+    let scenario = scenario()?;
+    let mut diagnostics = scenario.diagnose(&scenario.run().recording).0;
+    // One of many, so that an example can be read.
+    for meter in [&mut diagnostics.desired_excitation, &mut diagnostics.actual_excitation].into_iter().flatten() {
+        meter.unidentifiable.truncate(1);
+    }
+    Ok(json!(diagnostics))
+}
+
+fn result() -> Result<Value, ScenarioError> {
+    let report = scenario()?.run().report;
     Ok(json!({ "format": "adaptarm.study/1", "complete": true, "state": "succeeded", "reports": [report] }))
 }
 
@@ -65,6 +79,7 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
         ("cancel_job", 200) => json!(job(JobState::Canceled)),
         ("list_jobs", 200) => json!(JobsView { jobs: vec![job(JobState::Succeeded)], next_cursor: None }),
         ("result", 200) => result()?,
+        ("diagnostics", 200) => diagnostics()?,
         ("scenario", 200) => json!(Scheme::Proposed.paper()),
         ("presets", 200) => json!([PresetView::new(&PRESETS[0])?]),
         ("preset", 200) => json!(PresetView::new(&PRESETS[0])?),

@@ -48,7 +48,7 @@ fn a_receipt_survives_json_and_runs_again_to_the_same_bits() {
 
 #[test]
 fn nothing_in_a_receipt_can_be_changed() {
-    let ((_folder, key), nonce) = (self::key(), Nonce::random().unwrap());
+    let ((_folder, key), nonce) = (key(), Nonce::random().unwrap());
     let receipt = receipt(&key, &nonce);
     let changes: [&dyn Fn(&mut Receipt); 7] = [
         &|receipt| receipt.statement.grade.score = 1.0,

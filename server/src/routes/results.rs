@@ -168,7 +168,17 @@ pub(super) async fn series(
     request.respond(samples(&state, &row).await?, &headers).await
 }
 
-/// Which scenario's figure or diagnostics.
+/// Which scenario's diagnostics.
+#[derive(Debug, Clone, Copy, Default, Deserialize, utoipa::IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ScenarioQuery {
+    /// Number of the scenario; the first is 0.
+    #[param(required = false, maximum = 99_999)]
+    scenario: usize,
+}
+
+/// Which figure.
 #[derive(Debug, Clone, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
@@ -273,7 +283,7 @@ pub(super) async fn figure(
     get, path = "/api/v1/jobs/{id}/result/diagnostics", operation_id = "diagnostics", tag = "results",
     params(
         ("id" = uuid::Uuid, Path, description = "The job's identifier."),
-        FigureQuery,
+        ScenarioQuery,
         ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
     ),
     responses(
@@ -288,7 +298,7 @@ pub(super) async fn diagnostics(
     State(state): State<AppState>,
     Reader(owner): Reader,
     Name(id): Name,
-    Query(query): Query<FigureQuery>,
+    Query(query): Query<ScenarioQuery>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
@@ -301,8 +311,7 @@ pub(super) async fn diagnostics(
     }
     let recording = samples(&state, &row).await?;
     let found = spawn_blocking(move || {
-        let scenario: Scenario = Scenario::read(&mut serde_json::Deserializer::from_str(&document))
-            .map_err(|error| super::internal(error))?;
+        let scenario = Scenario::read(&mut serde_json::Deserializer::from_str(&document)).map_err(super::internal)?;
         serde_json::to_vec(&scenario.diagnose(&recording).0).map_err(super::internal)
     });
     let bytes = found.await.map_err(super::internal)??;

@@ -86,7 +86,7 @@ async fn an_experiment_gives_to_the_byte_what_the_core_gives() {
             app.ask("GET", &format!("{job}/result"), &[("if-none-match", result.header("etag"))]).await.status,
             304
         );
-        let file = |name: &str| app.get(&format!("{job}/result/files/{name}")).await;
+        let file = async |name: &str| app.get(&format!("{job}/result/files/{name}")).await;
         assert_eq!(String::from_utf8(file("summary.json").await.body).unwrap(), text(&summary));
         assert_eq!(String::from_utf8(file("experiment.json").await.body).unwrap(), text(experiment.document()));
         let csv = file("runs.csv").await;
@@ -131,7 +131,7 @@ async fn a_tuning_goes_step_by_step_to_what_the_core_finds() {
     let summary = search.summary(&experiment);
     let view = app.wait(&job, &["succeeded"]).await;
     assert_eq!((&view["scenarios_done"], &view["scenarios"]), (&json!(summary.candidates), &json!(summary.candidates)));
-    let file = |name: &str| app.get(&format!("{job}/result/files/{name}"));
+    let file = async |name: &str| app.get(&format!("{job}/result/files/{name}")).await;
     assert_eq!(String::from_utf8(file("summary.json").await.body).unwrap(), text(&summary));
     let best = search.best_scenario(&experiment).unwrap();
     assert_eq!(String::from_utf8(file("best.json").await.body).unwrap(), text(best.document()));
@@ -148,7 +148,7 @@ async fn a_tuning_goes_step_by_step_to_what_the_core_finds() {
 async fn an_experiment_can_be_read_while_it_runs_and_canceled() {
     let app = App::new().await;
     let mut long = monte_carlo(2000);
-    long["bases"][0]["scenario"]["integration"]["duration_s"] = json!(60.0);
+    long["bases"][0]["scenario"]["integration"]["duration_s"] = json!(10.0);
     let job = submit(&app, &long).await;
     let started = std::time::Instant::now();
     let partial = loop {
@@ -182,7 +182,7 @@ async fn what_is_wrong_is_said_with_its_place() {
     };
     refused(&|body| body["kind"] = json!("tuning"), "/problems/conflict", "/spec/kind").await;
     refused(&|body| body["kind"] = json!("luck"), "/problems/malformed", "/kind").await;
-    refused(&|body| body["kind"] = json!("study"), "/problems/malformed", "/spec/bases").await;
+    refused(&|body| body["kind"] = json!("study"), "/problems/malformed", "/spec/kind").await;
     refused(
         &|body| body["spec"]["monte_carlo"]["draws"] = json!(0),
         "/problems/out-of-range",

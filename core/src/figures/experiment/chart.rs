@@ -1,6 +1,6 @@
 //! Parts that these figures share: axes with round ticks along one side, row labels, lines of text.
 
-use super::super::axes::Axis;
+use super::super::axes::{Axis, decade_below};
 use super::super::path::Frame;
 use super::super::surface::{Anchor, DrawError, Pen, Surface};
 use super::super::ticks::ticks;
@@ -92,11 +92,11 @@ pub(super) fn short(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let decade = value.abs().log10().floor();
-    if !(-4.0..6.0).contains(&decade) {
+    let decade = decade_below(value.abs());
+    if !(-4..6).contains(&decade) {
         return format!("{value:.2e}");
     }
-    let decimals = (2.0 - decade).max(0.0) as usize;
+    let decimals = (2 - decade).max(0) as usize;
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -55,9 +55,11 @@ pub(super) fn draw<S: Surface>(
     let x_range = (0.0, 1.02 * tried);
     let y = upwards(pen, &upper, range, "objective")?;
     let x = across(pen, &lower, x_range, "candidates tried")?;
-    let sigmas = || summary.history.iter().map(|generation| generation.sigma);
+    // A search for a front has no width, but a volume.
+    let sigmas = || summary.history.iter().map(|generation| generation.hypervolume.unwrap_or(generation.sigma));
+    let label = if summary.front.is_some() { "hypervolume" } else { "σ [ranges]" };
     let widest = extent(sigmas()).map_or(1.0, |(_, high)| high);
-    let wide = upwards(pen, &lower, (0.0, 1.1 * widest), "σ [ranges]")?;
+    let wide = upwards(pen, &lower, (0.0, 1.1 * widest), label)?;
     pen.hairline((upper.left, upper.bottom), (upper.right, upper.bottom), theme.ink())?;
 
     for pair in summary.history.windows(2).zip(&generations).filter(|(pair, _)| pair[0].restart != pair[1].restart) {

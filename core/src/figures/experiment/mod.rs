@@ -4,6 +4,7 @@
 mod boxes;
 mod chart;
 mod convergence;
+mod front;
 mod heat_map;
 mod names;
 mod parallel;
@@ -13,7 +14,7 @@ mod shades;
 use super::path::Frame;
 use super::style::{Style, Theme};
 use super::surface::{DrawError, Pen, Surface};
-use crate::experiments::{Experiment, Results, Summary, SweepDesign, TuningSummary};
+use crate::experiments::{Experiment, ExperimentKind, Results, Summary, SweepDesign, TuningSummary};
 use plotters::prelude::*;
 
 /// Drawing units per layout pixel of an SVG, as the runs' figures have them.
@@ -47,12 +48,14 @@ pub enum ExperimentFigure {
     ParallelCoordinates,
     /// The objective of a tuning, generation by generation, and how wide it searches.
     Convergence,
+    /// The Pareto front of a tuning with several objectives.
+    ParetoFront,
 }
 
 impl ExperimentFigure {
     /// Every figure.
-    pub const ALL: [Self; 5] =
-        [Self::HeatMap, Self::Boxes, Self::Ranking, Self::ParallelCoordinates, Self::Convergence];
+    pub const ALL: [Self; 6] =
+        [Self::HeatMap, Self::Boxes, Self::Ranking, Self::ParallelCoordinates, Self::Convergence, Self::ParetoFront];
 
     /// Identifier, in file names and addresses.
     pub const fn id(self) -> &'static str {
@@ -62,6 +65,7 @@ impl ExperimentFigure {
             Self::Ranking => "ranking",
             Self::ParallelCoordinates => "parallel_coordinates",
             Self::Convergence => "convergence",
+            Self::ParetoFront => "pareto_front",
         }
     }
 
@@ -69,11 +73,16 @@ impl ExperimentFigure {
     pub fn shows(self, experiment: &Experiment) -> bool {
         let sweep = experiment.document().sweep.as_ref();
         match self {
+            // Its figures stand in its report.
+            _ if experiment.kind() == ExperimentKind::Replication => false,
             Self::HeatMap => sweep.is_some_and(|sweep| sweep.design == SweepDesign::Grid && sweep.axes.len() == 2),
             Self::Boxes => experiment.runs().is_some(),
             Self::Ranking => experiment.runs().is_some() && experiment.base_names().len() > 1,
             Self::ParallelCoordinates => sweep.is_some_and(|sweep| sweep.axes.len() > 1),
             Self::Convergence => experiment.runs().is_none(),
+            Self::ParetoFront => {
+                experiment.document().tuning.as_ref().is_some_and(|tuning| !tuning.objectives.is_empty())
+            }
         }
     }
 
@@ -83,7 +92,7 @@ impl ExperimentFigure {
             Self::HeatMap => heat_map::height(experiment),
             Self::Boxes => boxes::height(experiment),
             Self::Ranking => ranking::height(experiment),
-            Self::ParallelCoordinates => 420,
+            Self::ParallelCoordinates | Self::ParetoFront => 420,
             Self::Convergence => 460,
         }
     }
@@ -129,6 +138,7 @@ pub fn draw_experiment<S: Surface>(
         (ExperimentFigure::Ranking, Shown::Rows(_, summary)) => ranking::draw(&mut pen, &sheet, summary),
         (ExperimentFigure::ParallelCoordinates, Shown::Rows(results, _)) => parallel::draw(&mut pen, &sheet, results),
         (ExperimentFigure::Convergence, Shown::Search(summary)) => convergence::draw(&mut pen, &sheet, summary),
+        (ExperimentFigure::ParetoFront, Shown::Search(summary)) => front::draw(&mut pen, &sheet, summary),
         _ => chart::say(&mut pen, &sheet.whole, "this experiment has no such figure"),
     }
 }
@@ -183,6 +193,7 @@ mod tests {
             monte_carlo: None,
             compare: None,
             tuning: None,
+            replication: None,
         };
         change(&mut document);
         Experiment::new(document).unwrap()
@@ -276,6 +287,7 @@ mod tests {
             document.tuning = Some(TuningDocument {
                 variables: vec![variable],
                 objective: vec![goal],
+                objectives: Vec::new(),
                 constraints: Vec::new(),
                 plants: None,
                 population: Some(4),
@@ -292,6 +304,10 @@ mod tests {
                 experiment_svg(ExperimentFigure::Convergence, &experiment, Shown::Search(&summary), None).unwrap();
             lengths.push(svg.len());
             if search.is_done() {
+                // What has no front says so.
+                let shown = Shown::Search(&summary);
+                let svg = experiment_svg(ExperimentFigure::ParetoFront, &experiment, shown, None).unwrap();
+                assert!(svg.contains("no candidate keeps all limits yet"));
                 break;
             }
             let mut rows = Vec::new();

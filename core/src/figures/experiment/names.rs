@@ -5,7 +5,7 @@ use crate::scenario::Scheme;
 
 /// A metric over all joints, or of one joint, with its unit.
 pub(super) fn metric(name: &str) -> String {
-    const KNOWN: [(&str, &str); 10] = [
+    const KNOWN: [(&str, &str); 12] = [
         ("index_e_deg", "index of tracking errors [°]"),
         ("index_de_deg_s", "index of velocity errors [°/s]"),
         ("e_peak_deg", "peak tracking error [°]"),
@@ -16,8 +16,10 @@ pub(super) fn metric(name: &str) -> String {
         ("control_effort_n2m2s", "control effort [N²·m²·s]"),
         ("settling_e_s", "settling time of the tracking error [s]"),
         ("settling_de_s", "settling time of the velocity error [s]"),
+        ("ultimate_bound_e_deg", "ultimate bound of the tracking error [°]"),
+        ("tau_variation_nm_s", "variation of the torque [N·m/s]"),
     ];
-    let known = KNOWN.iter().find(|(id, _)| name.strip_prefix(id).is_some_and(|rest| is_joint(rest)));
+    let known = KNOWN.iter().find(|(id, _)| name.strip_prefix(id).is_some_and(is_joint));
     known.map_or_else(
         || name.to_owned(),
         |(id, words)| match name[id.len()..].strip_prefix('_') {
@@ -37,7 +39,7 @@ pub(super) fn field(pointer: &str, relative: bool) -> String {
     let last = parts.next().unwrap_or(pointer);
     let is_number = last.bytes().all(|byte| byte.is_ascii_digit());
     let (name, index) = if is_number { (parts.next().unwrap_or(""), Some(last)) } else { (last, None) };
-    let gains = Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS).flat_map(|scheme| scheme.gains());
+    let gains = Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS).flat_map(Scheme::gains);
     let unit =
         gains.filter(|_| pointer.starts_with("/scheme/gains/")).find(|gain| gain.name == name).map(|gain| gain.unit);
     let index = index.map(|index| format!("[{index}]")).unwrap_or_default();

@@ -4,12 +4,14 @@ use super::document::{
     AdaptationDocument, AdaptationKind, EffectsDocument, EncodersDocument, VelocityDocument, VelocityKind,
 };
 use crate::adaptation::{
-    AnyAdaptation, CompositeAdaptation, CompositeLaw, ConcurrentLearning, FilteredRegressor, LeastSquaresAdaptation, Mixing,
-    Modification, PredictionMemory,
+    AnyAdaptation, CompositeAdaptation, CompositeLaw, ConcurrentLearning, FilteredRegressor, LeastSquaresAdaptation,
+    Mixing, Modification, PredictionMemory,
 };
 use crate::control::{AnyFeedback, LinearFeedback, LinearModel};
 use crate::dynamics::Plant;
-use crate::effects::{Actuator, Disturbance, Elasticity, EncoderSide, Load, Payload, SampledControl, Sensing, Stribeck};
+use crate::effects::{
+    Actuator, Disturbance, Elasticity, EncoderSide, Load, Payload, SampledControl, Sensing, Stribeck,
+};
 use crate::robots::{Robot, payload_parameters};
 use crate::scenario::build::{self, Lanes};
 use crate::scenario::build_trajectory::trajectory;

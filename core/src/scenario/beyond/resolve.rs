@@ -167,8 +167,7 @@ fn resolve_adaptation(adaptation: &mut AdaptationDocument) -> Check {
 }
 
 /// Kinds that filter the dynamics by themselves.
-const FILTERING: &[AdaptationKind] =
-    &[AdaptationKind::LeastSquares, AdaptationKind::Concurrent, AdaptationKind::Drem];
+const FILTERING: &[AdaptationKind] = &[AdaptationKind::LeastSquares, AdaptationKind::Concurrent, AdaptationKind::Drem];
 
 fn belongs_to(kinds: &[AdaptationKind]) -> String {
     let name = |kind: &AdaptationKind| match kind {
@@ -189,15 +188,18 @@ fn check_record(record_s: f64, document: &ScenarioDocument) -> Check {
     }
     whole_number(pointer, record_s, document.integration.step_s, "integration steps")?;
     let period_s = document.effects.as_ref().and_then(|effects| effects.sampling.as_ref()).map(|it| it.period_s);
-    period_s.filter(|period_s| *period_s != 0.0).map_or(Ok(()), |period_s| {
-        whole_number(pointer, record_s, period_s, "sampling periods")
-    })
+    period_s
+        .filter(|period_s| *period_s != 0.0)
+        .map_or(Ok(()), |period_s| whole_number(pointer, record_s, period_s, "sampling periods"))
 }
 
 fn whole_number(pointer: &str, time_s: f64, unit_s: f64, what: &str) -> Check {
     let count = time_s / unit_s;
     if (count - count.round()).abs() > 1e-6 * count.max(1.0) {
-        return conflict(pointer, &format!("{time_s} s is {count} {what} of {unit_s} s; it must be a whole number of them"));
+        return conflict(
+            pointer,
+            &format!("{time_s} s is {count} {what} of {unit_s} s; it must be a whole number of them"),
+        );
     }
     Ok(())
 }
@@ -220,7 +222,8 @@ fn check_elasticity(elasticity: &ElasticityDocument, robot: &RobotData, step_s: 
         for (name, rate) in [("stiffness_nm_rad", frequency), ("damping_nms_rad", decay)] {
             if rate * step_s > limits::STEP_ANGLE {
                 let longest_s = limits::STEP_ANGLE / rate;
-                let message = format!("makes the motor too fast for steps of {step_s} s; at most {longest_s:.2e} s would do");
+                let message =
+                    format!("makes the motor too fast for steps of {step_s} s; at most {longest_s:.2e} s would do");
                 return conflict(&format!("/effects/elasticity/{name}/{joint}"), &message);
             }
         }

@@ -66,7 +66,14 @@ pub(super) fn adaptation(schema: &mut Schema) {
     let [fewest, most] = limits::STACK;
     refine(schema, "/properties/stack", &json_schema!({ "minimum": fewest, "maximum": most }));
     let all = [
-        "filter_rad_s", "weight", "forgetting", "gain_limit", "stack", "record_every_s", "rate_per_s", "excitation_floor",
+        "filter_rad_s",
+        "weight",
+        "forgetting",
+        "gain_limit",
+        "stack",
+        "record_every_s",
+        "rate_per_s",
+        "excitation_floor",
     ];
     kinds(
         schema,

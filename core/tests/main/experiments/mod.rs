@@ -2,6 +2,7 @@
 //! stopped.
 
 mod mistakes;
+mod replication;
 mod tuning;
 
 use adaptarm_core::experiments::{Experiment, ExperimentDocument, PlannedRun, Results, Row, RowOutcome, Summary};

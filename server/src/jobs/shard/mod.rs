@@ -174,13 +174,14 @@ impl Worker<'_> {
         }
     }
 
-    /// Tells the store now and then that a shard of many short scenarios goes on, and asks whether it should.
-    async fn go_on(&mut self, steps: u64) -> Result<(), Stopped> {
+    /// Tells the store now and then that a shard of many short scenarios goes on, and asks whether it should; `forward` says
+    /// whether what is done is kept.
+    async fn go_on(&mut self, steps: u64, forward: bool) -> Result<(), Stopped> {
         // Short scenarios one after another are a long time too.
         if self.told.elapsed() < self.shared.settings.heartbeat {
             return Ok(());
         }
-        match self.tick(steps, true, self.began.elapsed() >= self.shared.settings.slice).await {
+        match self.tick(steps, forward, self.began.elapsed() >= self.shared.settings.slice).await {
             Ok(Order::Stop) => Err(Stopped::Lost),
             Ok(Order::Yield) => Err(Stopped::Yielded),
             Ok(Order::Continue) => Ok(()),

@@ -89,7 +89,7 @@ impl Worker<'_> {
 
     /// Between two groups of runs: lets go, with what is done saved, where that is asked for.
     async fn between(&mut self, rows: &[Row], steps: u64) -> Result<(), Stopped> {
-        let stop = match self.go_on(steps).await {
+        let stop = match self.go_on(steps, false).await {
             Err(Stopped::Yielded) => true,
             other => {
                 other?;

@@ -63,7 +63,7 @@ impl Worker<'_> {
                 if self.claim.suspect || self.must_let_go() {
                     return Err(Stopped::Yielded);
                 }
-                self.go_on(0).await?;
+                self.go_on(0, true).await?;
             }
         }
         self.discard().await;
@@ -94,10 +94,12 @@ impl Worker<'_> {
         metrics::result_stored(encoded.bytes.len() as u64);
         metrics::simulated(simulated_s, report.steps);
         let computed = self.computed();
-        let result = StoredResult { n, report, bytes: encoded.bytes.len() as u64, checksum: encoded.checksum, last };
-        let delivered =
-            retry(self.shared, || self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
-        self.counted = 0;
+        // What ticks have counted of scenarios computed together is shared out as they are delivered.
+        let counted = self.counted.min(report.steps as i64);
+        let (bytes, counted_of_others) = (encoded.bytes.len() as u64, self.counted - counted);
+        let result = StoredResult { n, report, bytes, checksum: encoded.checksum, last, counted, counted_of_others };
+        let delivered = retry(self.shared, || self.shared.store.deliver(self.claim, &result, computed)).await;
+        self.counted -= counted;
         match delivered.map_err(Stopped::Unreachable)? {
             Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
             _ => Ok(()),

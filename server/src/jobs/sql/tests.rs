@@ -39,7 +39,15 @@ fn result(claim: &Claim) -> StoredResult {
     let Task::Scenarios(scenarios) = &claim.task else { panic!("{claim:?}") };
     let (n, document) = &scenarios[0];
     let report = crate::document::parse_scenario(document.as_bytes()).unwrap().run().report;
-    StoredResult { n: *n, report, bytes: 1000, checksum: "0".repeat(64), last: scenarios.len() == 1 }
+    StoredResult {
+        n: *n,
+        report,
+        bytes: 1000,
+        checksum: "0".repeat(64),
+        last: scenarios.len() == 1,
+        counted: 0,
+        counted_of_others: 0,
+    }
 }
 
 impl Lab {
@@ -52,7 +60,7 @@ impl Lab {
     }
 
     async fn deliver(&self, claim: &Claim) -> Order {
-        self.store.deliver(claim, &result(claim), 0, Duration::from_millis(1)).await.unwrap().order
+        self.store.deliver(claim, &result(claim), Duration::from_millis(1)).await.unwrap().order
     }
 
     async fn tick(&self, claim: &Claim, tick: Tick) -> Order {

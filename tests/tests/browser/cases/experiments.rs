@@ -17,7 +17,7 @@ fn base(name: &str, scheme: &str) -> Value {
         "integration": { "duration_s": 1.0 }, "recording": { "samples": 100 } } })
 }
 
-fn experiment(kind: &str, bases: Value, section: Value) -> Value {
+fn experiment(kind: &str, bases: &[Value], section: Value) -> Value {
     let mut document =
         json!({ "format": "adaptarm.experiment/1", "kind": kind, "title": format!("a {kind}"), "bases": bases });
     document[kind] = section;
@@ -28,27 +28,24 @@ fn sweep() -> Value {
     let axis =
         |field: &str, min: f64, max: f64| json!({ "field": field, "min": min, "max": max, "points": 5, "log": true });
     let axes = [axis("/scheme/gains/k_v/0", 10.0, 160.0), axis("/scheme/gains/k_d/0", 75.0, 600.0)];
-    experiment("sweep", json!([base("Proposed", "proposed")]), json!({ "design": "grid", "axes": axes }))
+    experiment("sweep", &[base("Proposed", "proposed")], json!({ "design": "grid", "axes": axes }))
 }
 
 fn compare() -> Value {
     let set = json!([{ "field": "/plant/theta_scale/*", "value": 1.2, "relative": true }]);
     let conditions = json!([{ "name": "as in the paper", "set": [] }, { "name": "heavier", "set": set }]);
-    let field =
-        json!({ "field": "/plant/theta_scale/*", "distribution": { "kind": "lognormal", "median": 1, "log_sd": 0.1 } });
-    let bases = json!([
-        base("Proposed", "proposed"),
-        base("Tang and Arteaga", "tang_arteaga"),
-        base("Slotine and Li", "slotine_li")
-    ]);
-    experiment("compare", bases, json!({ "conditions": conditions, "draws": 20, "fields": [field] }))
+    let field = json!({ "field": "/plant/theta_scale/*", "relative": true,
+        "distribution": { "kind": "lognormal", "median": 1, "log_sd": 0.1 } });
+    let bases =
+        [base("Proposed", "proposed"), base("Tang and Arteaga", "tang_arteaga"), base("Slotine and Li", "slotine_li")];
+    experiment("compare", &bases, json!({ "conditions": conditions, "draws": 20, "fields": [field] }))
 }
 
 fn tuning() -> Value {
     let variable = json!({ "field": "/scheme/gains/k_v/*", "min": 0.25, "max": 4, "log": true, "relative": true });
     let section =
         json!({ "variables": [variable], "objective": [{ "metric": "index_e_deg", "weight": 1 }], "evaluations": 40 });
-    experiment("tuning", json!([base("Proposed", "proposed")]), section)
+    experiment("tuning", &[base("Proposed", "proposed")], section)
 }
 
 fn submit(client: &Client, document: &Value) -> Result<String> {
@@ -108,7 +105,7 @@ pub fn experiments_show_tables_figures_and_files(bench: &Bench) -> Result<()> {
             page.run(
                 "const choice = document.querySelector('#figure-choice'); choice.value = arguments[0]; \
                  choice.dispatchEvent(new Event('change'))",
-                &[name.clone()],
+                std::slice::from_ref(name),
             )?;
             page.wait_for(&format!(
                 "const picture = document.querySelector('.experiment img'); \

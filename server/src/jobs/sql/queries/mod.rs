@@ -119,14 +119,8 @@ impl JobStore for SqlStore {
         work::tick(&self.write, claim, tick, lease, limits).await
     }
 
-    async fn deliver(
-        &self,
-        claim: &Claim,
-        result: &StoredResult,
-        counted: i64,
-        computed: Duration,
-    ) -> Result<Delivered, StoreError> {
-        let delivered = work::deliver(&self.write, claim, result, counted, computed).await?;
+    async fn deliver(&self, claim: &Claim, result: &StoredResult, computed: Duration) -> Result<Delivered, StoreError> {
+        let delivered = work::deliver(&self.write, claim, result, computed).await?;
         if delivered.ended.is_some() {
             self.ring();
         }

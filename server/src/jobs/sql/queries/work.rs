@@ -110,7 +110,6 @@ pub(super) async fn deliver(
     pool: &Pool,
     claim: &Claim,
     result: &StoredResult,
-    counted: i64,
     computed: Duration,
 ) -> Result<Delivered, StoreError> {
     let stop = Delivered { order: Order::Stop, ended: None };
@@ -123,14 +122,15 @@ pub(super) async fn deliver(
          WHERE id = $1 AND state = 'running' RETURNING scenarios_done, scenarios, event_seq",
     )
     .bind(claim.job.to_string())
-    .bind(result.report.steps as i64 - counted)
+    .bind(result.report.steps as i64 - result.counted)
     .bind(computed.as_micros() as i64)
     .bind(result.bytes as i64)
     .fetch_optional(&mut *connection)
     .await?;
     let Some((scenarios_done, scenarios, seq)) = counts else { return Ok(stop) };
-    // From now on the shard's count is that of its next scenario.
-    let forward = Tick { steps_done: 0, steps_before: 0, computed, saved: true, turn_over: false };
+    // From now on the shard's count is that of the scenarios under way, or of the next one.
+    let forward =
+        Tick { steps_done: result.counted_of_others, steps_before: 0, computed, saved: true, turn_over: false };
     if !fenced(connection, claim, forward, None).await? {
         return Ok(stop);
     }
