@@ -271,7 +271,8 @@ mod tests {
         assert!(front.len() >= 30, "{} members", front.len());
         for member in &front {
             let [f1, f2] = [member.objectives[0], member.objectives[1]];
-            assert!((f2 - (1.0 - f1.sqrt())).abs() < 0.02, "({f1}, {f2}) is off the front");
+            // Where f1 is next to nothing the front is vertical, and a member above it may be beaten by none.
+            assert!(f1 < 1e-6 || (f2 - (1.0 - f1.sqrt())).abs() < 0.02, "({f1}, {f2}) is off the front");
         }
         let points: Vec<_> = front.iter().map(|member| member.objectives.as_slice()).collect();
         let volume = hypervolume(&points, &[1.0, 1.0]);
