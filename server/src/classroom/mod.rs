@@ -8,7 +8,6 @@ mod desk;
 mod export;
 mod gradebook;
 mod grader;
-mod library;
 pub(crate) mod marks;
 pub(crate) mod model;
 mod passwords;

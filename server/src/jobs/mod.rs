@@ -22,8 +22,8 @@ pub use claim::{Claim, Delivered, Order, StoredResult, Tick};
 pub use engine::Engine;
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;
-pub(crate) use sql::{damaged, stored_id, stored_state, stored_time};
 pub use sql::{Stores, connect};
+pub(crate) use sql::{damaged, stored_id, stored_state, stored_time};
 pub use store::{
     Event, EventKind, Filter, JobStore, NewJob, NewScenario, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };

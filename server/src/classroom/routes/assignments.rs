@@ -9,6 +9,7 @@ use super::super::{model::Role, problems, texts, views};
 use super::{attempts, change, own_assignment, own_class, own_pair, read};
 use crate::api::{JsonBytes, Name};
 use crate::error::Problem;
+use crate::exercises::Library;
 use crate::routes::problems::database;
 use crate::state::AppState;
 use adaptarm_core::scenario::{Problem as Wrong, ScenarioError};
@@ -115,7 +116,7 @@ pub(super) async fn create(
     let asked: Asked = read(&bytes)?;
     let name = asked.exercise.clone();
     let unknown = || {
-        let problem = Wrong::Unknown { value: crate::document::brief(&name), allowed: state.desk.library.ids() };
+        let problem = Wrong::Unknown { value: crate::document::brief(&name), allowed: ids(&state.desk.library) };
         ScenarioError::new("/exercise", problem)
     };
     let document = state.desk.library.get(&name).ok_or_else(unknown)?.document();
@@ -129,6 +130,11 @@ pub(super) async fn create(
     let data = json!({ "assignment": id, "settings": assignment.settings });
     change(&state, &teacher, class.id, Change::AddAssignment(assignment.clone()), "assignment.create", data).await?;
     Ok((StatusCode::CREATED, Json(views::assignment(&assignment, &[]))).into_response())
+}
+
+/// Identifiers of all exercises, for whoever asked for another.
+fn ids(library: &Library) -> String {
+    library.iter().map(|exercise| exercise.document().id.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// An assignment, to its teacher and to the students of its class.

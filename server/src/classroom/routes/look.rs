@@ -26,7 +26,7 @@ const ENTRIES: i64 = 1000;
 
 /// The library, with what only teachers see.
 pub(super) async fn exercises(State(state): State<AppState>, _: Teacher) -> Json<Value> {
-    let documents: Vec<_> = state.desk.library.all().map(Exercise::document).collect();
+    let documents: Vec<_> = state.desk.library.iter().map(Exercise::document).collect();
     Json(json!({ "exercises": documents }))
 }
 
