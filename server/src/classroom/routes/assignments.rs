@@ -215,7 +215,10 @@ pub(super) async fn extend(
     let [_, most] = texts::COMMENT_CHARS;
     let comment = texts::line("/comment", &comment, [0, most])?;
     let extension = Extension { assignment: assignment.id, student: student.id, deadline, attempts, comment };
-    let data = json!({ "assignment": assignment.id, "extension": views::extension(&extension) });
+    // The comment goes with the student, and the note stays.
+    let data = json!({
+        "assignment": assignment.id, "student": student.id, "deadline": deadline, "attempts": attempts,
+    });
     change(&state, &teacher, class.id, Change::SetExtension(extension.clone()), "extension.set", data).await?;
     Ok(Json(views::extension(&extension)))
 }

@@ -91,7 +91,7 @@ fn preview(student: &Visitor, assignment: &str) -> Result<()> {
     let documents: Vec<_> = runs.iter().map(|run| json!(run.document())).collect();
     ensure!(view["visible"] == json!(documents), "{view}");
     let told = view.to_string();
-    for secret in ["hidden", "SOLUTION", "NOTE-FOR", "EXPLANATION-OF", "HINT-TWO"] {
+    for secret in ["hidden", "solution-stiff", "NOTE-FOR", "EXPLANATION-OF", "HINT-TWO"] {
         ensure!(!told.contains(secret), "{secret} in {told}");
     }
     Ok(())
@@ -341,6 +341,6 @@ pub fn teachers() -> Result<()> {
     redeem(link, "eva")?.expect_status(201)?;
     redeem(link, "iva")?.expect_status(401)?;
     let exercises = teacher.get("/exercises")?.expect(200)?.to_string();
-    ensure!(exercises.contains("NOTE-FOR-TEACHERS") && exercises.contains("SOLUTION-STIFF"));
+    ensure!(exercises.contains("NOTE-FOR-TEACHERS") && exercises.contains("solution-stiff"));
     Ok(())
 }

@@ -163,7 +163,7 @@ pub fn hidden() -> Result<()> {
         ensure!(!told.contains(secret), "{secret} in {told}");
     }
     ensure!(
-        told.contains("EXPLANATION-OF-HOLD") && !told.contains("SOLUTION-STIFF") && !told.contains("NOTE-FOR"),
+        told.contains("EXPLANATION-OF-HOLD") && !told.contains("solution-stiff") && !told.contains("NOTE-FOR"),
         "{told}"
     );
     files(&client)?;
