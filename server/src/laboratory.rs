@@ -1,6 +1,6 @@
 //! Everything that outlives a request, opened as the settings say: tables, queue, results, engine.
 
-use crate::classroom::Desk;
+use crate::classroom::{ClassroomStore, Desk};
 use crate::config::{Config, ResultsPlace};
 use crate::jobs::{Engine, EngineSettings, JobStore, Queue, Stores, connect};
 use crate::results::Results;
@@ -22,7 +22,7 @@ pub struct Laboratory {
     /// The queue beside them.
     pub queue: Arc<dyn Queue>,
     /// Classes.
-    pub desk: Arc<Desk>,
+    pub classroom: Arc<dyn ClassroomStore>,
     /// Samples and checkpoints.
     pub results: Results,
     /// Whom webhooks may reach.
@@ -49,8 +49,12 @@ impl Laboratory {
         }
         let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;
         let receivers = Arc::new(config.webhooks.policy().context("webhooks.allow")?);
-        let desk = Arc::new(Desk::open(classroom, config).await?);
-        Ok(Self { receivers, desk, engine, store, queue, results, _lock: lock })
+        Ok(Self { receivers, classroom, engine, store, queue, results, _lock: lock })
+    }
+
+    /// What requests of the classroom share; servers have it, and workers do without.
+    pub async fn desk(&self, config: &Config) -> anyhow::Result<Arc<Desk>> {
+        Ok(Arc::new(Desk::open(self.classroom.clone(), config).await?))
     }
 
     /// What makes the calls to webhooks.

@@ -38,7 +38,7 @@ pub struct AppState {
 
 impl AppState {
     /// State around a laboratory.
-    pub fn new(laboratory: &Laboratory, config: &Config, hosts: Hosts) -> Self {
+    pub fn new(laboratory: &Laboratory, desk: Arc<Desk>, config: &Config, hosts: Hosts) -> Self {
         Self {
             engine: laboratory.engine.clone(),
             store: laboratory.store.clone(),
@@ -48,7 +48,7 @@ impl AppState {
             hosts,
             // Elsewhere than on this machine's own address, anyone may come.
             gate: Arc::new(Gate::new(laboratory.store.clone(), &config.auth, hosts == Hosts::Loopback)),
-            desk: laboratory.desk.clone(),
+            desk,
             hub: Hub::new(laboratory.store.clone()),
             draining: Arc::default(),
         }

@@ -6,6 +6,8 @@ use crate::auth::{FailureLimiter, Rate, RateLimiter};
 use crate::config::Config;
 use crate::error::Problem;
 use crate::exercises::{Library, LibraryError};
+use crate::laboratory::data_folder;
+use crate::receipts::ReceiptKey;
 use anyhow::Context;
 use axum::http::{HeaderMap, HeaderName, header};
 use jiff::{SignedDuration, Timestamp};
@@ -43,6 +45,8 @@ pub struct Desk {
     pub library: Library,
     /// What seeds are made from.
     pub secret: String,
+    /// What signs receipts.
+    pub key: ReceiptKey,
     public_url: Option<String>,
     passwords: FailureLimiter,
     codes: FailureLimiter,
@@ -59,6 +63,7 @@ impl Desk {
         Ok(Self {
             secret: store.secret(SEEDS, &fresh).await?,
             library: library(config).context("classroom.exercises")?,
+            key: ReceiptKey::open(&data_folder(config)).context("the key that signs receipts")?,
             store,
             public_url: config.classroom.public_url.clone(),
             passwords: FailureLimiter::new(rate(PASSWORDS_PER_MINUTE)),

@@ -161,7 +161,9 @@ mod tests {
     #[test]
     fn reads_exactly_one_cookie_of_the_name() {
         assert_eq!(cookie(&cookies(&["a=1; adaptarm=x; b=2"]), PLAIN).as_deref(), Some("x"));
-        for none in [&["a=1"][..], &["adaptarm=x; adaptarm=y"], &["adaptarm=x", "adaptarm=y"], &["__Host-adaptarm=x"], &[]] {
+        for none in
+            [&["a=1"][..], &["adaptarm=x; adaptarm=y"], &["adaptarm=x", "adaptarm=y"], &["__Host-adaptarm=x"], &[]]
+        {
             assert_eq!(cookie(&cookies(none), PLAIN), None, "{none:?}");
         }
     }

@@ -149,9 +149,9 @@ pub fn leaderboard(shares: &[(uuid::Uuid, Share)], you: Option<uuid::Uuid>) -> V
     // Among equals the order must not tell who they are.
     marks.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     let rank = |points: f64| 1 + marks.iter().filter(|(_, other)| *other > points).count();
-    let entries = marks.iter().map(|(student, points)| {
-        json!({ "rank": rank(*points), "points": points, "you": you == Some(*student) })
-    });
+    let entries = marks
+        .iter()
+        .map(|(student, points)| json!({ "rank": rank(*points), "points": points, "you": you == Some(*student) }));
     json!({ "entries": entries.collect::<Vec<_>>() })
 }
 

@@ -26,8 +26,8 @@ pub use experiment::{ExperimentJob, read_experiment, read_rows, read_search};
 pub use new_job::{NewExperiment, NewJob, NewScenario, NewWork};
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;
-pub(crate) use sql::{damaged, stored_id, stored_state, stored_time};
 pub use sql::{Stores, connect};
+pub(crate) use sql::{damaged, stored_id, stored_state, stored_time};
 pub use store::{
     Event, EventKind, ExperimentRow, Filter, JobStore, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };

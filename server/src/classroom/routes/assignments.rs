@@ -137,6 +137,11 @@ pub(super) async fn create(
     Ok((StatusCode::CREATED, Json(views::assignment(&assignment, &[]))).into_response())
 }
 
+/// Identifiers of all exercises, for whoever asked for another.
+fn ids(library: &Library) -> String {
+    library.iter().map(|exercise| exercise.document().id.as_str()).collect::<Vec<_>>().join(", ")
+}
+
 /// An assignment, to its teacher and to the students of its class.
 pub(super) async fn show(
     State(state): State<AppState>,
@@ -215,7 +220,10 @@ pub(super) async fn extend(
     let [_, most] = texts::COMMENT_CHARS;
     let comment = texts::line("/comment", &comment, [0, most])?;
     let extension = Extension { assignment: assignment.id, student: student.id, deadline, attempts, comment };
-    let data = json!({ "assignment": assignment.id, "extension": views::extension(&extension) });
+    // The comment goes with the student, and the note stays.
+    let data = json!({
+        "assignment": assignment.id, "student": student.id, "deadline": deadline, "attempts": attempts,
+    });
     change(&state, &teacher, class.id, Change::SetExtension(extension.clone()), "extension.set", data).await?;
     Ok(Json(views::extension(&extension)))
 }

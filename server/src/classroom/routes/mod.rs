@@ -57,7 +57,8 @@ pub fn routes() -> Router<AppState> {
         .route("/assignments/{id}/students/{student}/override", put(assignments::decide))
         .route("/attempts/{id}", get(attempts::show))
         .route("/attempts/{id}/events", get(attempts::events))
-        .route("/attempts/{id}/receipt", get(attempts::receipt));
+        .route("/attempts/{id}/receipt", get(attempts::receipt))
+        .route("/attempts/{id}/reveal", get(attempts::reveal));
     Router::new().nest(ROOT, below)
 }
 

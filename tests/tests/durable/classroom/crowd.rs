@@ -76,7 +76,8 @@ fn check(teacher: &Visitor, class: &str, assignment: &str, students: &[Visitor],
     let ids: BTreeSet<_> = graded.iter().map(|attempt| attempt["id"].to_string()).collect();
     ensure!(ids.len() == students.len() && graded.len() == students.len(), "{} attempts", ids.len());
     let library = teacher.get("/exercises")?.expect(200)?;
-    let hold = library["exercises"].as_array().into_iter().flatten().find(|own| own["id"] == "hold").context("no hold")?;
+    let hold =
+        library["exercises"].as_array().into_iter().flatten().find(|own| own["id"] == "hold").context("no hold")?;
     let exercise = Exercise::read(hold)?;
     let board = teacher.get(&format!("/assignments/{assignment}/board"))?.expect(200)?;
     ensure!(board["graded"] == students.len(), "{} graded", board["graded"]);

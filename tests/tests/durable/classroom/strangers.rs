@@ -65,21 +65,23 @@ pub fn roles() -> Result<()> {
     let dora = Visitor::student(&server.url, &other_code, "Dora")?;
     let theirs = of_teachers(&class, &assignment, &bea.id()?);
     let nobodys = of_teachers(nowhere, nowhere, nowhere);
-    for ((method, path, body), (_, unknown, _)) in theirs.iter().zip(&nobodys).filter(|((_, path, _), _)| path.contains('-')) {
+    for ((method, path, body), (_, unknown, _)) in
+        theirs.iter().zip(&nobodys).filter(|((_, path, _), _)| path.contains('-'))
+    {
         let [refused, none] = [path, unknown].map(|path| stripped(eva.send(method, path, &[], body.as_ref())));
         let (refused, none) = (refused?, none?);
         ensure!(refused == none && refused["status"] == 404, "{method} {path}: {refused} {none}");
     }
     // Ana's assignment with a student of Eva's.
-    for (method, path, body) in of_teachers(&class, &assignment, &dora.id()?).iter().filter(|(_, path, _)| {
-        path.contains("/students/") || path.contains("/extensions/")
-    }) {
+    for (method, path, body) in of_teachers(&class, &assignment, &dora.id()?)
+        .iter()
+        .filter(|(_, path, _)| path.contains("/students/") || path.contains("/extensions/"))
+    {
         teacher.send(method, path, &[], body.as_ref())?.expect_status(404).with_context(|| path.clone())?;
     }
     for student in [&carlos, &dora] {
-        for rest in ["", "/events", "/receipt"] {
-            let [refused, none] = [&attempt, nowhere]
-                .map(|id| stripped(student.get(&format!("/attempts/{id}{rest}"))));
+        for rest in ["", "/events", "/receipt", "/reveal"] {
+            let [refused, none] = [&attempt, nowhere].map(|id| stripped(student.get(&format!("/attempts/{id}{rest}"))));
             ensure!(refused? == none?, "{rest}");
         }
     }
@@ -127,7 +129,10 @@ pub fn hidden() -> Result<()> {
     let grade = &work["attempts"][0]["grade"];
     let mut secrets = Vec::new();
     for variant in grade["variants"].as_array().context("no variants")? {
-        secrets.extend([&variant["scenario_hash"], &variant["trajectory_hash"]].map(|hash| hash.as_str().unwrap_or("?").to_owned()));
+        secrets.extend(
+            [&variant["scenario_hash"], &variant["trajectory_hash"]]
+                .map(|hash| hash.as_str().unwrap_or("?").to_owned()),
+        );
     }
     for run in work["attempts"][0]["runs"].as_array().context("no runs")?.iter().filter(|run| run["hidden"] == true) {
         secrets.push(run["scenario"]["seed"].to_string());
@@ -142,6 +147,7 @@ pub fn hidden() -> Result<()> {
         format!("/assignments/{assignment}/attempts"),
         format!("/attempts/{attempt}"),
         format!("/attempts/{attempt}/receipt"),
+        format!("/attempts/{attempt}/reveal"),
         "/me/export".to_owned(),
     ];
     for path in paths {
@@ -156,7 +162,10 @@ pub fn hidden() -> Result<()> {
     for secret in &secrets {
         ensure!(!told.contains(secret), "{secret} in {told}");
     }
-    ensure!(told.contains("EXPLANATION-OF-HOLD") && !told.contains("SOLUTION-STIFF") && !told.contains("NOTE-FOR"), "{told}");
+    ensure!(
+        told.contains("EXPLANATION-OF-HOLD") && !told.contains("solution-stiff") && !told.contains("NOTE-FOR"),
+        "{told}"
+    );
     files(&client)?;
     times(&student, &attempt)
 }
@@ -165,7 +174,9 @@ pub fn hidden() -> Result<()> {
 fn files(client: &Client) -> Result<()> {
     let listed = client.get("/files.json")?.expect(200)?.to_string();
     ensure!(!listed.contains(".toml"), "{listed}");
-    for path in ["/exercises/pendulum-gravity.toml", "/static/exercises/pendulum-gravity.toml", "/exercises/", "/exercises"] {
+    for path in
+        ["/exercises/pendulum-gravity.toml", "/static/exercises/pendulum-gravity.toml", "/exercises/", "/exercises"]
+    {
         client.get(path)?.expect_status(404)?;
     }
     Ok(())

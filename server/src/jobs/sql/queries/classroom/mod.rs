@@ -7,12 +7,8 @@ mod read;
 mod sessions;
 
 use super::SqlStore;
-use crate::classroom::model::{
-    Assignment, Attempt, Class, Extension, NewPerson, Note, Override, Person, Session,
-};
-use crate::classroom::store::{
-    Change, ClassroomStore, Entered, Handed, NewAttempt, Outcome, Papers, Ripe,
-};
+use crate::classroom::model::{Assignment, Attempt, Class, Extension, NewPerson, Note, Override, Person, Session};
+use crate::classroom::store::{Change, ClassroomStore, Entered, Handed, NewAttempt, Outcome, Papers, Ripe};
 use crate::config::Limits;
 use crate::jobs::StoreError;
 use async_trait::async_trait;
