@@ -2,11 +2,12 @@
 //!
 //! For tables of experiments, which have no time axis. Values that are not positive have no place on it and are left out.
 
-use super::axes::power_of_ten;
+use super::axes::{decade_above, decade_below, power_of_ten};
 use super::path::{Frame, Path};
 use super::style::{Dash, Line, Rgb, Style, Theme, scheme_style};
 use super::surface::{Anchor, DrawError, Pen};
 use super::ticks::Tick;
+use crate::scalar::decimal_logarithm;
 use crate::scenario::Scheme;
 use plotters::prelude::*;
 
@@ -66,18 +67,18 @@ impl Scale {
     }
 
     fn x(&self, value: f64) -> f64 {
-        let share = (value / self.low).log10() / (self.high / self.low).log10();
+        let share = decimal_logarithm(value / self.low) / decimal_logarithm(self.high / self.low);
         self.left + share * (self.right - self.left)
     }
 
     /// Powers of ten; with few of them also 2 and 5 times, with hardly one every whole multiple.
     fn ticks(&self) -> Vec<Tick> {
-        let steps: &[f64] = match (self.high / self.low).log10() {
+        let steps: &[f64] = match decimal_logarithm(self.high / self.low) {
             decades if decades < 0.7 => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
             decades if decades < 2.5 => &[1.0, 2.0, 5.0],
             _ => &[1.0],
         };
-        let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
+        let (first, last) = (decade_below(self.low), decade_above(self.high));
         let tick = |k: i32, step: f64| {
             let (value, decimals) = (step * power_of_ten(k), (-k).max(0) as usize);
             (value, format!("{value:.decimals$}"))

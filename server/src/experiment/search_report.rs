@@ -188,7 +188,7 @@ fn entries(summary: &ReplicationSummary, text: &mut String) -> Result<()> {
 
 /// Three digits.
 fn quotient(value: f64) -> String {
-    if value >= 99.5 || value < 0.01 {
+    if !(0.01..99.5).contains(&value) {
         format!("{value:.1e}")
     } else if value >= 9.95 {
         format!("{value:.1}")

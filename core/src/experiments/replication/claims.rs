@@ -48,7 +48,7 @@ pub(super) const FEWEST_SAMPLES: usize = 60;
 pub(super) type Study = [Findings; 3];
 
 /// A claim with its criterion, and the test: whether it holds, and the numbers behind it.
-pub(super) struct Criterion {
+pub(super) struct TestedClaim {
     pub id: &'static str,
     pub claim: &'static str,
     pub criterion: &'static str,
@@ -56,74 +56,74 @@ pub(super) struct Criterion {
 }
 
 /// Every claim.
-pub(super) const CRITERIA: [Criterion; 12] = [
-    Criterion {
+pub(super) const CRITERIA: [TestedClaim; 12] = [
+    TestedClaim {
         id: "ultimately_bounded",
         claim: "The proposed scheme's tracking and observer errors are ultimately bounded.",
         criterion: "for every joint the index of e and of z over the second half is at most that over the first",
         test: bounded,
     },
-    Criterion {
+    TestedClaim {
         id: "slotine_li_converges",
         claim: "Slotine and Li's tracking errors tend to zero.",
         criterion: "for every joint I(e) over the second half is smaller than over the first",
         test: slotine_li_converges,
     },
-    Criterion {
+    TestedClaim {
         id: "errors_look_alike",
         claim: "The joint errors of the three controllers behave very much alike.",
         criterion: "for every joint the largest I(e) is within a factor of 2 of the smallest",
         test: errors_look_alike,
     },
-    Criterion {
+    TestedClaim {
         id: "slotine_li_worst",
         claim: "Slotine and Li's controller tracks worst of the three.",
         criterion: "its I(e) is the largest for every joint (the paper's own Table 1 denies this for joint 2)",
         test: slotine_li_worst_tracking,
     },
-    Criterion {
+    TestedClaim {
         id: "similar_to_tang_arteaga",
         claim: "The proposed scheme performs much like Tang and Arteaga's, although it lacks the velocity sensor.",
         criterion: "I(e) and I(ė) of the two are within a factor of 2 for every joint",
         test: similar_to_tang_arteaga,
     },
-    Criterion {
+    TestedClaim {
         id: "slotine_li_settles_last",
         claim: "The velocity errors of Slotine and Li's controller settle last.",
         criterion: "for every joint its ė enters the band of 0.5 °/s for good later than with both others",
         test: slotine_li_settles_last,
     },
-    Criterion {
+    TestedClaim {
         id: "third_joint_velocity_stays",
         claim: "With Slotine and Li's controller the third joint's velocity error stays at a bounded level instead of vanishing.",
         criterion: "its I(ė3) over the last sixth is more than half of that over the whole run, and a larger share than with both others",
         test: third_joint_velocity_stays,
     },
-    Criterion {
+    TestedClaim {
         id: "observer_replaces_the_sensor",
         claim: "The velocity errors confirm that the observer stands in well for a velocity sensor.",
         criterion: "for every joint I(ė) of the proposed scheme is at most twice Tang and Arteaga's and below Slotine and Li's",
         test: observer_replaces_the_sensor,
     },
-    Criterion {
+    TestedClaim {
         id: "observer_peaks",
         claim: "The observer errors stay below 0.023°, 0.027° and 0.019°.",
         criterion: "the peaks do not exceed these bounds as rounded (K_d was calibrated to them: no evidence for the claim)",
         test: observer_peaks,
     },
-    Criterion {
+    TestedClaim {
         id: "estimates_become_constant",
         claim: "Only with Tang and Arteaga's and the proposed scheme do the estimates settle to constants.",
         criterion: "in the last sixth at least 16 of 18 estimates move less than 5 % of their range with these two, and fewer with Slotine and Li",
         test: estimates_become_constant,
     },
-    Criterion {
+    TestedClaim {
         id: "closest_estimates",
         claim: "Only the proposed scheme's estimates come close to some true values.",
         criterion: "at the end at least one of its estimates is within 10 % of the truth, and none of the other schemes' is",
         test: closest_estimates,
     },
-    Criterion {
+    TestedClaim {
         id: "proposed_best",
         claim: "The performance indices show the proposed scheme ahead.",
         criterion: "it has the smallest index in more than half of the six entries of Tables 1 and 2 (the paper's own tables: 4 of 6)",
@@ -137,7 +137,7 @@ pub fn check_claims(runs: &[Run; 3]) -> Vec<Claim> {
         (None, [Some(proposed), Some(tang_arteaga), Some(slotine_li)]) => Ok([proposed, tang_arteaga, slotine_li]),
         (reason, _) => Err(reason.unwrap_or_default()),
     };
-    let claim = |Criterion { id, claim, criterion, test }: Criterion| {
+    let claim = |TestedClaim { id, claim, criterion, test }: TestedClaim| {
         let (verdict, evidence) = match &judged {
             Ok(study) => {
                 let (holds, evidence) = test(study);

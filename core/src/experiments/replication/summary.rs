@@ -3,7 +3,7 @@
 //!
 //! A pure function of the rows that there are.
 
-use super::claims::{CRITERIA, Criterion};
+use super::claims::{CRITERIA, TestedClaim};
 use super::document::ReplicationDocument;
 use super::entries::{Entry, entries};
 use super::passes::{Found, Names, Nearest, Plausible, is_reached, names, nearest, options, plausible};
@@ -225,7 +225,7 @@ fn unknown_summaries(names: &Names, nearest: &Nearest, plausible: &Plausible) ->
 }
 
 fn claim_summaries(plausible: &Plausible) -> Vec<ClaimSummary> {
-    let summary = |(n, criterion): (usize, &Criterion)| ClaimSummary {
+    let summary = |(n, criterion): (usize, &TestedClaim)| ClaimSummary {
         id: criterion.id.to_owned(),
         claim: criterion.claim.to_owned(),
         criterion: criterion.criterion.to_owned(),
