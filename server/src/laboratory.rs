@@ -1,7 +1,8 @@
 //! Everything that outlives a request, opened as the settings say: tables, queue, results, engine.
 
+use crate::classroom::{ClassroomStore, Desk};
 use crate::config::{Config, ResultsPlace};
-use crate::jobs::{Engine, EngineSettings, JobStore, Queue, connect};
+use crate::jobs::{Engine, EngineSettings, JobStore, Queue, Stores, connect};
 use crate::results::Results;
 use crate::webhooks::{Policy, Sender};
 use anyhow::{Context, bail};
@@ -20,6 +21,8 @@ pub struct Laboratory {
     pub store: Arc<dyn JobStore>,
     /// The queue beside them.
     pub queue: Arc<dyn Queue>,
+    /// Classes.
+    pub classroom: Arc<dyn ClassroomStore>,
     /// Samples and checkpoints.
     pub results: Results,
     /// Whom webhooks may reach.
@@ -35,7 +38,7 @@ impl Laboratory {
         let data = data_folder(config);
         let lock = if config.database.is_none() { Some(lock(&data)?) } else { None };
         let results = Results::open(&results_place(config))?;
-        let (store, queue) = connect(config.database.as_ref(), &data).await?;
+        let Stores { jobs: store, queue, classroom } = connect(config.database.as_ref(), &data).await?;
         if lock.is_some() {
             let buried = store.bury_all().await?;
             if buried > 0 {
@@ -46,7 +49,12 @@ impl Laboratory {
         }
         let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;
         let receivers = Arc::new(config.webhooks.policy().context("webhooks.allow")?);
-        Ok(Self { receivers, engine, store, queue, results, _lock: lock })
+        Ok(Self { receivers, classroom, engine, store, queue, results, _lock: lock })
+    }
+
+    /// What requests of the classroom share; servers have it, and workers do without.
+    pub async fn desk(&self, config: &Config) -> anyhow::Result<Arc<Desk>> {
+        Ok(Arc::new(Desk::open(self.classroom.clone(), config).await?))
     }
 
     /// What makes the calls to webhooks.
@@ -56,12 +64,12 @@ impl Laboratory {
 }
 
 /// The tables alone, which a server may be using at the same time.
-pub async fn open_tables(config: &Config) -> anyhow::Result<Arc<dyn JobStore>> {
+pub async fn open_tables(config: &Config) -> anyhow::Result<Stores> {
     let data = data_folder(config);
     if config.database.is_none() {
         make_folder(&data)?;
     }
-    Ok(connect(config.database.as_ref(), &data).await?.0)
+    Ok(connect(config.database.as_ref(), &data).await?)
 }
 
 /// The data folder.

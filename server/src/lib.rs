@@ -8,6 +8,7 @@
 pub mod api;
 pub mod assets;
 pub mod auth;
+pub mod classroom;
 pub mod commands;
 pub mod compression;
 pub mod config;

@@ -1,6 +1,7 @@
 //! What every request can reach.
 
 use crate::auth::Gate;
+use crate::classroom::Desk;
 use crate::config::Config;
 use crate::events::Hub;
 use crate::guard::Hosts;
@@ -28,6 +29,8 @@ pub struct AppState {
     pub hosts: Hosts,
     /// Who may do what.
     pub gate: Arc<Gate>,
+    /// Classes.
+    pub desk: Arc<Desk>,
     /// Where jobs are watched.
     pub hub: Hub,
     draining: Arc<AtomicBool>,
@@ -35,7 +38,7 @@ pub struct AppState {
 
 impl AppState {
     /// State around a laboratory.
-    pub fn new(laboratory: &Laboratory, config: &Config, hosts: Hosts) -> Self {
+    pub fn new(laboratory: &Laboratory, desk: Arc<Desk>, config: &Config, hosts: Hosts) -> Self {
         Self {
             engine: laboratory.engine.clone(),
             store: laboratory.store.clone(),
@@ -45,6 +48,7 @@ impl AppState {
             hosts,
             // Elsewhere than on this machine's own address, anyone may come.
             gate: Arc::new(Gate::new(laboratory.store.clone(), &config.auth, hosts == Hosts::Loopback)),
+            desk,
             hub: Hub::new(laboratory.store.clone()),
             draining: Arc::default(),
         }

@@ -176,12 +176,17 @@ impl Client {
 
     /// The job's events after the one with this identifier; from the first on when there is none.
     pub fn events(&self, id: &str, after: Option<&str>) -> Result<Events> {
-        let after = after.map(|after| ("last-event-id", after));
-        let headers: Vec<_> = [("accept", "text/event-stream")].into_iter().chain(after).collect();
-        let request = self.request("GET", &format!("/api/v1/jobs/{id}/events"), &headers, &[])?;
+        let after: Vec<_> = after.map(|after| ("last-event-id", after)).into_iter().collect();
+        self.stream(&format!("/api/v1/jobs/{id}/events"), &after)
+    }
+
+    /// The events that this path tells.
+    pub fn stream(&self, path: &str, headers: &[(&str, &str)]) -> Result<Events> {
+        let headers: Vec<_> = [("accept", "text/event-stream")].iter().chain(headers).copied().collect();
+        let request = self.request("GET", path, &headers, &[])?;
         let request = self.agent.configure_request(request).timeout_global(Some(LONGEST_STREAM)).build();
         let response = self.agent.run(request)?;
-        ensure!(response.status() == 200, "{} for the events of {id}", response.status());
+        ensure!(response.status() == 200, "{} for {path}", response.status());
         Ok(Events::new(response.into_body().into_reader()))
     }
 }

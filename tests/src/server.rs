@@ -127,6 +127,12 @@ impl Server {
         Ok(())
     }
 
+    /// The same, and from now on started like this.
+    pub fn restart_as(&mut self, launch: Launch) -> Result<()> {
+        self.launch = Launch { bind: self.launch.bind.clone(), ..launch };
+        self.restart()
+    }
+
     /// A new token of this user.
     pub fn token(&self, owner: &str, arguments: &[&str]) -> Result<String> {
         let printed = self.tokens(&[&["create", "--owner", owner], arguments].concat())?;

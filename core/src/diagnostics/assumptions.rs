@@ -18,7 +18,6 @@ pub struct Violation {
     /// What is wrong, for people.
     pub meaning: String,
     /// Parameters concerned, by symbol.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<String>,
     /// Share of the recorded rows for which it is so; absent where it is so throughout.
     #[serde(skip_serializing_if = "Option::is_none")]

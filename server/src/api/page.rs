@@ -55,7 +55,7 @@ impl JobsQuery {
     /// Checks everything in it.
     pub fn check(self, owner: &str) -> Result<PageRequest, Problem> {
         let state = self.state.map(|state| name("state", &state, JobState::from_id, &JobState::ALL.map(JobState::id)));
-        let kind = self.kind.map(|kind| name("kind", &kind, JobKind::from_id, &JobKind::ALL.map(JobKind::id)));
+        let kind = self.kind.map(|kind| name("kind", &kind, asked_kind, &JobKind::ALL.map(JobKind::id)));
         if let Some(label) = &self.label {
             check_label(label).map_err(|wrong| wrong_label(label, &wrong))?;
         }
@@ -64,6 +64,11 @@ impl JobsQuery {
         let filter = Filter { state: state.transpose()?, kind: kind.transpose()?, label: self.label, before };
         Ok(PageRequest { filter, limit })
     }
+}
+
+/// A kind that can be asked for.
+fn asked_kind(id: &str) -> Option<JobKind> {
+    JobKind::from_id(id).filter(|kind| JobKind::ALL.contains(kind))
 }
 
 fn invalid(kind: &'static str, title: &'static str, parameter: &str, value: &str, message: &str) -> Problem {

@@ -23,10 +23,13 @@ pub struct Writer(pub Owner);
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Observer;
 
+/// The address that a request comes from. Who comes without a connection is called in process, and all such callers are one.
+pub fn peer(parts: &Parts) -> IpAddr {
+    parts.extensions.get::<Peer>().map_or(IpAddr::V4(Ipv4Addr::UNSPECIFIED), |peer| peer.0.ip())
+}
+
 async fn admit(parts: &Parts, state: &AppState, scope: Scope) -> Result<Owner, Problem> {
-    // Who comes without a connection is called in process, and all such callers are one.
-    let peer = parts.extensions.get::<Peer>().map_or(IpAddr::V4(Ipv4Addr::UNSPECIFIED), |peer| peer.0.ip());
-    state.gate.admit(&parts.headers, peer, scope).await.map_err(Problem::from)
+    state.gate.admit(&parts.headers, peer(parts), scope).await.map_err(Problem::from)
 }
 
 impl FromRequestParts<AppState> for Reader {

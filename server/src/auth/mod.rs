@@ -11,7 +11,7 @@ mod scope;
 mod stored;
 mod token;
 
-pub use extract::{Observer, Reader, Writer};
+pub use extract::{Observer, Reader, Writer, peer};
 pub use gate::{Gate, Refusal};
 pub use owner::{Owner, OwnerError};
 pub use rate::{FailureLimiter, Rate, RateLimiter};

@@ -12,6 +12,7 @@ mod run;
 mod samples;
 mod serve;
 mod shutdown;
+mod teacher;
 mod token;
 mod worker;
 
@@ -67,6 +68,8 @@ enum Command {
     Gc(gc::Arguments),
     /// Make, list or revoke the tokens by which a server on a public address knows its users.
     Token(token::Arguments),
+    /// Let a teacher into the classroom.
+    Teacher(teacher::Arguments),
     /// Print the description of the HTTP API as OpenAPI 3.1.
     Openapi,
     /// Check the settings, or print an example file.
@@ -91,6 +94,7 @@ pub fn main() -> ExitCode {
         Command::Gc(arguments) => gc::run(&arguments),
         Command::Openapi => openapi::run(),
         Command::Token(arguments) => token::run(&arguments),
+        Command::Teacher(arguments) => teacher::run(&arguments),
         Command::Config(arguments) => config::run(&arguments),
     };
     match done {

@@ -3,6 +3,7 @@
 use super::Failure;
 use super::options::{ComputeOptions, StorageOptions};
 use super::shutdown::Shutdown;
+use crate::classroom::{Desk, forget_sessions, grade};
 use crate::config::{Config, Retention};
 use crate::guard::Hosts;
 use crate::jobs::{JobStore, Queue, collect_garbage};
@@ -59,7 +60,8 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     let listener = TcpListener::bind(config.bind).await.map_err(failure)?;
     let bound = listener.local_addr().map_err(failure)?;
     let laboratory = Laboratory::open(config).await.map_err(Failure::chain)?;
-    let state = AppState::new(&laboratory, config, Hosts::of(bound));
+    let desk = laboratory.desk(config).await.map_err(Failure::chain)?;
+    let state = AppState::new(&laboratory, desk.clone(), config, Hosts::of(bound));
     let app = router::build_app(state.clone());
     let engine = laboratory.engine.clone();
     let working = tokio::spawn({
@@ -67,11 +69,13 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         async move { engine.run().await }
     });
     let (end, ending) = watch::channel(false);
+    let grading = tokio::spawn(grade(desk.clone(), laboratory.store.clone(), ending.clone()));
     let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
     let upkeep = tokio::spawn(keep_tidy(
         laboratory.store.clone(),
         laboratory.queue.clone(),
         laboratory.results.clone(),
+        desk.clone(),
         config.retention.clone(),
     ));
     let measuring = tokio::spawn(metrics::keep_small());
@@ -92,6 +96,9 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         "serving"
     );
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
+    if let Some(link) = desk.first_link(&format!("http://{bound}")).await.map_err(Failure::chain)? {
+        print(&format!("The first teacher begins here, once and within a day: {link}\n"))?;
+    }
     let stop = || {
         state.drain();
         engine.stop();
@@ -106,17 +113,28 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     }
     // What is not delivered by then stays in the queue.
     let _ = timeout(CALLS_DRAIN, calling).await;
+    // Nor is a grade that is not written yet: the next server makes it.
+    let _ = timeout(CALLS_DRAIN, grading).await;
     tracing::info!("stopped");
     Ok(())
 }
 
 /// Forgets, now and then, what is older than it should become.
-async fn keep_tidy(store: Arc<dyn JobStore>, queue: Arc<dyn Queue>, results: Results, retention: Retention) {
+async fn keep_tidy(
+    store: Arc<dyn JobStore>,
+    queue: Arc<dyn Queue>,
+    results: Results,
+    desk: Arc<Desk>,
+    retention: Retention,
+) {
     loop {
         sleep(UPKEEP_INTERVAL).await;
         match collect_garbage(&*store, &*queue, &results, &retention).await {
             Ok(forgotten) => tracing::info!(?forgotten, "upkeep"),
             Err(error) => tracing::warn!("upkeep: {error:#}"),
+        }
+        if let Err(error) = forget_sessions(&desk).await {
+            tracing::warn!("upkeep: {error}");
         }
     }
 }

@@ -101,7 +101,7 @@ fn with_tables(
     act: impl AsyncFnOnce(Arc<dyn JobStore>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let config = storage.load(Vec::new())?.config;
-    super::runtime()?.block_on(async { act(open_tables(&config).await.map_err(Failure::chain)?).await })
+    super::runtime()?.block_on(async { act(open_tables(&config).await.map_err(Failure::chain)?.jobs).await })
 }
 
 /// The tokens in columns.

@@ -24,7 +24,7 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::Duration;
-use values::{check, check_address, check_filter, check_folder, check_receiver};
+use values::{check, check_address, check_filter, check_folder, check_public_url, check_receiver};
 
 section! {
     /// Settings of one server or worker.
@@ -57,6 +57,8 @@ section! {
         auth: Auth;
         /// Messages to other servers.
         webhooks: Webhooks;
+        /// Classes.
+        classroom: Classroom;
     }
 }
 
@@ -147,6 +149,16 @@ section! {
         allow_all: bool = false, Rule::switch();
         /// Wait before the first repetition of a failed delivery; later ones wait longer.
         first_retry_s: f64 = 5.0, Rule::number(0.01, 3600.0, "s");
+    }
+}
+
+section! {
+    /// Classes, their pages and their exercises.
+    Classroom ["classroom"] {
+        /// Address under which people reach this server, where a proxy stands before it; links are made from it.
+        public_url: Option<String> = None, Rule::text(check_public_url).example(r#""https://lab.example.org""#);
+        /// Folder with exercises of your own, beside those of this program.
+        exercises: Option<PathBuf> = None, Rule::text(check_folder).example(r#""/var/lib/adaptarm/exercises""#);
     }
 }
 

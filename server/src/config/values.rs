@@ -187,6 +187,16 @@ impl fmt::Display for ResultsPlace {
     }
 }
 
+/// Where people reach a server: a scheme and a host, without a path.
+pub(super) fn check_public_url(text: &str) -> Result<String, String> {
+    let url = Url::parse(text).map_err(|error| format!("not an address such as https://lab.example.org: {error}"))?;
+    let whole = matches!(url.scheme(), "http" | "https") && url.has_host() && url.path() == "/";
+    if whole && url.query().is_none() && url.fragment().is_none() && url.username().is_empty() {
+        return Ok(text.trim_end_matches('/').to_owned());
+    }
+    Err("not an address such as https://lab.example.org: http or https, a host, and no path".to_owned())
+}
+
 /// How a line of the log is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]

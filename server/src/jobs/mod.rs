@@ -26,7 +26,8 @@ pub use experiment::{ExperimentJob, read_experiment, read_rows, read_search};
 pub use new_job::{NewExperiment, NewJob, NewScenario, NewWork};
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;
-pub use sql::connect;
+pub use sql::{Stores, connect};
+pub(crate) use sql::{damaged, stored_id, stored_state, stored_time};
 pub use store::{
     Event, EventKind, ExperimentRow, Filter, JobStore, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };
@@ -51,16 +52,20 @@ pub enum JobKind {
     Compare,
     /// An experiment that searches the best values.
     Tuning,
+    /// The variants of an attempt in a classroom. Nobody can ask for such a job, nor look at one.
+    #[serde(skip)]
+    Grade,
 }
 
 impl JobKind {
-    /// Every kind.
+    /// Every kind that can be asked for.
     pub const ALL: [Self; 5] = [Self::Study, Self::Sweep, Self::MonteCarlo, Self::Compare, Self::Tuning];
 
     /// Its name over HTTP and in the database.
     pub fn id(self) -> &'static str {
         match self {
             Self::Study => "study",
+            Self::Grade => "grade",
             Self::Sweep => "sweep",
             Self::MonteCarlo => "monte_carlo",
             Self::Compare => "compare",
@@ -70,12 +75,12 @@ impl JobKind {
 
     /// Whether it is an experiment.
     pub fn is_experiment(self) -> bool {
-        self != Self::Study
+        !matches!(self, Self::Study | Self::Grade)
     }
 
     /// The kind of this name.
     pub fn from_id(id: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.id() == id)
+        Self::ALL.into_iter().chain([Self::Grade]).find(|kind| kind.id() == id)
     }
 }
 

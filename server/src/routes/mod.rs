@@ -25,6 +25,7 @@ pub fn api() -> Router<AppState> {
         .route("/api/docs", get(docs::page))
         .route("/api/docs/", get(docs::page))
         .route("/api/docs/{name}", get(docs::file))
+        .merge(crate::classroom::routes())
         .layer(axum::middleware::map_response(|mut response: axum::response::Response| async {
             // A job's state changes between two looks at it.
             response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
@@ -69,7 +70,7 @@ fn operations() -> OpenApiRouter<AppState> {
 }
 
 /// Our own constants cannot be wrong; if one is, that is our failure.
-fn internal(error: impl std::fmt::Display) -> Problem {
+pub(crate) fn internal(error: impl std::fmt::Display) -> Problem {
     tracing::error!("{error}");
     Problem::status(StatusCode::INTERNAL_SERVER_ERROR, "the server failed; its log names this request")
 }

@@ -14,7 +14,7 @@ pub(super) fn no_job(id: &str) -> Problem {
 }
 
 /// Nothing begins here any more.
-pub(super) fn draining() -> Problem {
+pub(crate) fn draining() -> Problem {
     let problem = Problem::status(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down");
     Problem { retry_after_s: Some(RETRY_AFTER_S), ..problem }
 }

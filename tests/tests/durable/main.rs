@@ -7,6 +7,7 @@ mod accounts;
 mod auth;
 mod bucket;
 mod cancel;
+mod classroom;
 mod examples;
 mod experiments;
 mod fair;
@@ -75,6 +76,19 @@ const CASES: &[Case] = &[
     ("the_examples_of_the_manual_work", &[Need::Python], examples::manual),
     ("the_api_keeps_its_own_description", &[Need::Python], schemathesis::conformance),
     ("no_document_makes_the_server_fail", &[], fuzz::documents),
+    ("a_course_from_the_link_to_the_gradebook", &[], classroom::course::on_sqlite),
+    ("a_course_in_postgresql", &[Need::Postgres], classroom::course::on_postgres),
+    ("teachers_come_by_links_that_work_once", &[], classroom::course::teachers),
+    ("a_planted_session_is_nobodys", &[], classroom::entry::fixation),
+    ("other_sites_change_nothing", &[], classroom::entry::cross_site),
+    ("passwords_are_not_guessed_nor_people_found", &[], classroom::entry::passwords),
+    ("codes_and_links_end", &[], classroom::entry::codes),
+    ("students_see_only_their_own", &[], classroom::strangers::roles),
+    ("hidden_variants_are_in_no_answer", &[], classroom::strangers::hidden),
+    ("attempts_are_counted_right_at_once", &[], classroom::limits::at_once),
+    ("attempts_are_counted_right_in_postgresql", &[Need::Postgres], classroom::limits::at_once_on_postgres),
+    ("an_attempt_that_the_server_failed_is_given_back", &[], classroom::limits::given_back),
+    ("a_school_hands_in_while_its_server_is_killed", &[], classroom::crowd::hands_in),
 ];
 
 fn main() {

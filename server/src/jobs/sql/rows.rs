@@ -143,19 +143,21 @@ impl TryFrom<TokenRow> for StoredToken {
 }
 
 /// A state by its name in the tables.
-pub(super) fn state(name: &str) -> Result<JobState, StoreError> {
+pub(crate) fn state(name: &str) -> Result<JobState, StoreError> {
     JobState::from_id(name).ok_or_else(|| damaged("a job in the state", name))
 }
 
 /// An identifier as the tables hold it.
-pub(super) fn id(text: &str) -> Result<Uuid, StoreError> {
+pub(crate) fn id(text: &str) -> Result<Uuid, StoreError> {
     text.parse().map_err(|_| damaged("the identifier", text))
 }
 
-fn time(microseconds: i64) -> Result<Timestamp, StoreError> {
+/// A moment as the tables hold it.
+pub(crate) fn time(microseconds: i64) -> Result<Timestamp, StoreError> {
     Timestamp::from_microsecond(microseconds).map_err(|_| damaged("the time", &microseconds.to_string()))
 }
 
-fn damaged(what: &str, value: &str) -> StoreError {
+/// What the tables hold makes no sense.
+pub(crate) fn damaged(what: &str, value: &str) -> StoreError {
     StoreError::Damaged(format!("{what} {value:?}"))
 }

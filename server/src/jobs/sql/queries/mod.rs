@@ -2,6 +2,7 @@
 
 mod change;
 mod claim;
+mod classroom;
 mod experiment;
 mod keep;
 mod queue;

@@ -88,7 +88,11 @@ async fn alone(pool: &Pool, job: &NewJob, limits: &Limits) -> Result<Submitted, 
 
 /// Accepts a job as part of a transaction, and says for how many shards to wake someone. Every refusal comes before the
 /// first thing written.
-async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> Result<(Submitted, usize), StoreError> {
+pub(super) async fn attempt(
+    connection: &mut Connection,
+    job: &NewJob,
+    limits: &Limits,
+) -> Result<(Submitted, usize), StoreError> {
     while_submitting(connection, &job.owner).await?;
     if let Some(job) = repeated(connection, job).await? {
         return Ok((Submitted { job, repeated: true }, 0));
