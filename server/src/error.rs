@@ -121,7 +121,7 @@ impl From<StudyError> for Problem {
         match error {
             StudyError::Document(error) => error.into(),
             StudyError::TooMuch { pointer, what, total, most } => {
-                Self::new(StatusCode::UNPROCESSABLE_ENTITY, "/problems/too-much", "Too much for one study", detail)
+                Self::new(StatusCode::UNPROCESSABLE_ENTITY, "/problems/too-much", "Too much for one job", detail)
                     .with("pointer", pointer)
                     .with("what", what)
                     .with("total", total)

@@ -1,9 +1,9 @@
 //! Everything that outlives a request, opened as the settings say: tables, queue, results, engine.
 
-use crate::classroom::Desk;
+use crate::classroom::{ClassroomStore, Desk};
 use crate::config::{Config, ResultsPlace};
 use crate::jobs::{Engine, EngineSettings, JobStore, Queue, Stores, connect};
-use crate::lti::Tool;
+use crate::lti::{LtiStore, Tool};
 use crate::results::Results;
 use crate::webhooks::{Policy, Sender};
 use anyhow::{Context, bail};
@@ -23,9 +23,9 @@ pub struct Laboratory {
     /// The queue beside them.
     pub queue: Arc<dyn Queue>,
     /// Classes.
-    pub desk: Arc<Desk>,
+    pub classroom: Arc<dyn ClassroomStore>,
     /// Learning platforms.
-    pub lti: Arc<Tool>,
+    pub lti: Arc<dyn LtiStore>,
     /// Samples and checkpoints.
     pub results: Results,
     /// Whom webhooks may reach.
@@ -53,9 +53,17 @@ impl Laboratory {
         }
         let engine = Engine::new(store.clone(), queue.clone(), results.clone(), EngineSettings::of(config))?;
         let receivers = Arc::new(config.webhooks.policy().context("webhooks.allow")?);
-        let desk = Arc::new(Desk::open(classroom, config).await?);
-        let lti = Arc::new(Tool::new(lti, desk.clone(), config)?);
-        Ok(Self { receivers, desk, lti, engine, store, queue, results, _lock: lock })
+        Ok(Self { receivers, classroom, lti, engine, store, queue, results, _lock: lock })
+    }
+
+    /// What requests of the classroom share; servers have it, and workers do without.
+    pub async fn desk(&self, config: &Config) -> anyhow::Result<Arc<Desk>> {
+        Ok(Arc::new(Desk::open(self.classroom.clone(), config).await?))
+    }
+
+    /// What requests of learning platforms and the passing back of grades share.
+    pub fn tool(&self, desk: &Arc<Desk>, config: &Config) -> anyhow::Result<Arc<Tool>> {
+        Ok(Arc::new(Tool::new(self.lti.clone(), desk.clone(), config)?))
     }
 
     /// What makes the calls to webhooks.

@@ -41,7 +41,7 @@ pub struct AppState {
 
 impl AppState {
     /// State around a laboratory.
-    pub fn new(laboratory: &Laboratory, config: &Config, hosts: Hosts) -> Self {
+    pub fn new(laboratory: &Laboratory, desk: Arc<Desk>, lti: Arc<Tool>, config: &Config, hosts: Hosts) -> Self {
         Self {
             engine: laboratory.engine.clone(),
             store: laboratory.store.clone(),
@@ -51,8 +51,8 @@ impl AppState {
             hosts,
             // Elsewhere than on this machine's own address, anyone may come.
             gate: Arc::new(Gate::new(laboratory.store.clone(), &config.auth, hosts == Hosts::Loopback)),
-            desk: laboratory.desk.clone(),
-            lti: laboratory.lti.clone(),
+            desk,
+            lti,
             hub: Hub::new(laboratory.store.clone()),
             draining: Arc::default(),
         }

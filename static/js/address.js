@@ -4,6 +4,7 @@
 // the address has not caught up with), then the address's link, then what an earlier visit left, then the paper's study.
 // A link that cannot be read changes nothing and says why.
 
+import { jump } from "./jump.js";
 import { LinkError, decodeLink, encodeLink, isLink } from "./link-codec.js";
 import { notice } from "./notice.js";
 import { loadSession, saveSession } from "./storage.js";
@@ -145,18 +146,4 @@ export class Address {
 
 function isMarked() {
   return history.state?.adaptarm === MARK.adaptarm;
-}
-
-/** A link to a place on this page goes there, and leaves the settings in the address alone. */
-function jump(event) {
-  const link = event.target.closest?.("a[href^='#']");
-  const target = link && document.getElementById(link.getAttribute("href").slice(1));
-  if (target && !event.defaultPrevented && event.button === 0 && !(event.ctrlKey || event.metaKey || event.shiftKey)) {
-    event.preventDefault();
-    if (!target.hasAttribute("tabindex")) {
-      target.tabIndex = -1;
-    }
-    target.focus({ preventScroll: true });
-    target.scrollIntoView();
-  }
 }

@@ -8,15 +8,16 @@ import { initTheme } from "./theme.js";
 
 const PAGES = [
   ["playground", "./"],
+  ["classroom", "learn.html"],
   ["jobs", "jobs.html"],
   ["api", "api/docs"],
 ];
 
-/** Builds the masthead of the page called `current`. */
-export function buildMasthead(current) {
+/** Builds the masthead of the page called `current`; pages with texts of their own bring title and description. */
+export function buildMasthead(current, title = strings.titles[current], description = strings.descriptions[current]) {
   document.documentElement.lang = language;
-  document.title = strings.titles[current];
-  document.querySelector("meta[name=description]")?.setAttribute("content", strings.descriptions[current]);
+  document.title = title;
+  document.querySelector("meta[name=description]")?.setAttribute("content", description);
   fillTexts(strings);
   byId("pages").append(
     ...PAGES.map(([id, href]) => element("a", { href, "aria-current": id === current ? "page" : null }, strings.pages[id])),

@@ -14,6 +14,7 @@ export class RunPool {
   #waiting = new Map();
   #jobs = 0;
   #gaveUp = false;
+  #watching;
 
   /**
    * `handlers`: `done({scheme, generation, scenario, report, rows, elapsed_ms})`,
@@ -26,7 +27,16 @@ export class RunPool {
     for (let n = 0; n < size; n += 1) {
       this.#workers.push(this.#start({ job: null }));
     }
-    setInterval(() => this.#watch(), SILENCE_MS / 4);
+    this.#watching = setInterval(() => this.#watch(), SILENCE_MS / 4);
+  }
+
+  /** Ends all workers; the pool can do nothing more. */
+  end() {
+    clearInterval(this.#watching);
+    this.#waiting.clear();
+    for (const { worker } of this.#workers) {
+      worker.terminate();
+    }
   }
 
   /** Runs a scenario (JSON text) for a scheme instead of whatever the scheme waited for. */

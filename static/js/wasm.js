@@ -1,12 +1,12 @@
-// The simulation module on the main thread: loaded once, compiled once, shared with the workers.
+// A module of the core on the main thread: loaded once, compiled once; the simulation's is shared with the workers.
 
 import { refusal } from "./refusal.js";
 
-/** Loads the module. Throws with a reason for people when it is missing or broken. */
-export async function loadModule() {
+/** Loads the simulation, or another module. Throws with a reason for people when it is missing or broken. */
+export async function loadModule(name = "adaptarm_web") {
   // Imported here and not above: a missing file must be a message, not a page that stays blank.
-  const bindings = await import("../generated/adaptarm_web.js");
-  const url = new URL("../generated/adaptarm_web_bg.wasm", import.meta.url);
+  const bindings = await import(`../generated/${name}.js`);
+  const url = new URL(`../generated/${name}_bg.wasm`, import.meta.url);
   const response = await fetch(url);
   if (!response.ok) {
     throw new Error(`${url.pathname}: HTTP ${response.status}`);

@@ -38,7 +38,7 @@ criteria = [
     { id = "error", label = { en = "error", es = "error" }, metric = "e_peak_deg", full = 2.0, zero = 12.0, weight = 6.0 },
     { id = "effort", label = { en = "effort", es = "esfuerzo" }, metric = "tau_peak_nm", full = 30.0, zero = 60.0, weight = 4.0 },
 ]
-solutions = [{ name = "SOLUTION-STIFF", gains = { k_p = 400.0, k_d = 20.0 } }]
+solutions = [{ name = "solution-stiff", gains = { k_p = 400.0, k_d = 20.0 } }]
 
 [scenario]
 format = "adaptarm.scenario/1"
@@ -107,6 +107,11 @@ impl Visitor {
     /// Someone whom the server does not know.
     pub fn new(url: &str) -> Self {
         Self { client: Client::new(url), cookie: None, csrf: String::new(), session: Value::Null }
+    }
+
+    /// The same browser with this cookie instead of its own.
+    pub fn with_cookie(self, cookie: Option<String>) -> Self {
+        Self { cookie, ..self }
     }
 
     /// The first teacher of a server.

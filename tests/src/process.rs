@@ -2,14 +2,20 @@
 
 use anyhow::{Context, Result, bail, ensure};
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
+
+/// Longest that a line is waited for.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A running process.
 #[derive(Debug)]
 pub struct Process {
     child: Child,
+    /// Lines of its standard output after the one that said it was ready.
+    said: Arc<Mutex<Vec<String>>>,
 }
 
 impl Process {
@@ -17,17 +23,36 @@ impl Process {
     pub fn start<T>(command: &mut Command, find: impl Fn(&str) -> Option<T>) -> Result<(Self, T)> {
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
         let mut output = BufReader::new(child.stdout.take().context("the process has no standard output")?);
-        let mut process = Self { child };
+        let mut process = Self { child, said: Arc::default() };
         let mut line = String::new();
         while output.read_line(&mut line)? > 0 {
             if let Some(found) = find(line.trim()) {
                 // Nothing may block the process by not reading what it prints.
-                std::thread::spawn(move || output.read_to_end(&mut Vec::new()));
+                let said = Arc::clone(&process.said);
+                std::thread::spawn(move || {
+                    for line in output.lines().map_while(Result::ok) {
+                        said.lock().unwrap_or_else(PoisonError::into_inner).push(line);
+                    }
+                });
                 return Ok((process, found));
             }
             line.clear();
         }
         bail!("it ended before it was ready: {}", process.child.wait()?);
+    }
+
+    /// What `find` finds in a line that it prints once it is ready; waits for the line.
+    pub fn said<T>(&self, find: impl Fn(&str) -> Option<T>) -> Result<T> {
+        let deadline = Instant::now() + PATIENCE;
+        while Instant::now() < deadline {
+            let said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(found) = said.iter().find_map(|line| find(line)) {
+                return Ok(found);
+            }
+            drop(said);
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        bail!("it does not say what is waited for");
     }
 
     /// Process identifier.

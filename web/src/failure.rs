@@ -1,7 +1,7 @@
 //! Errors as the page receives them: an object with the JSON pointer of the offending field, the core's own message, and
 //! where the core has them the facts behind it, so that the page can say them in the reader's language.
 
-use adaptarm_core::scenario::{Problem, ReadError, Scenario};
+use adaptarm_core::scenario::{Problem, ReadError, ScenarioError};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
@@ -36,26 +36,37 @@ impl From<Failure> for JsValue {
     }
 }
 
-/// Reads and checks a scenario.
-pub(crate) fn read(json: &str) -> Result<Scenario, Failure> {
-    Scenario::read(&mut serde_json::Deserializer::from_str(json)).map_err(|error| Failure {
-        pointer: error.pointer().to_owned(),
-        message: match &error {
+impl From<ScenarioError> for Failure {
+    fn from(error: ScenarioError) -> Self {
+        Self { pointer: error.pointer.clone(), message: error.to_string(), problem: Some(error.problem) }
+    }
+}
+
+impl From<ReadError<serde_json::Error>> for Failure {
+    fn from(error: ReadError<serde_json::Error>) -> Self {
+        let pointer = error.pointer().to_owned();
+        match &error {
             // Where in a text nobody sees: the pointer says where.
             ReadError::Document { source, .. } => {
                 let place = format!(" at line {} column {}", source.line(), source.column());
-                error.to_string().replace(&place, "")
+                Self::at(pointer, error.to_string().replace(&place, ""))
             }
-            ReadError::Invalid(_) => error.to_string(),
-        },
-        problem: match error {
-            ReadError::Document { .. } => None,
-            ReadError::Invalid(error) => Some(error.problem),
-        },
-    })
+            ReadError::Invalid(_) => {
+                let message = error.to_string();
+                let problem = if let ReadError::Invalid(error) = error { Some(error.problem) } else { None };
+                Self { pointer, message, problem }
+            }
+        }
+    }
 }
 
-#[cfg(test)]
+/// Reads and checks a scenario.
+#[cfg(feature = "playground")]
+pub(crate) fn read(json: &str) -> Result<adaptarm_core::scenario::Scenario, Failure> {
+    Ok(adaptarm_core::scenario::Scenario::read(&mut serde_json::Deserializer::from_str(json))?)
+}
+
+#[cfg(all(test, feature = "playground"))]
 mod tests {
     use super::*;
 

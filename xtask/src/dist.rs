@@ -1,5 +1,6 @@
-//! The browser's module: compile `web/` for wasm32, generate its JavaScript bindings, put both into `static/generated`.
+//! The browser's modules: compile `web/` for wasm32, generate their JavaScript bindings, put all into `static/generated`.
 //!
+//! Two of one crate: the playground's, and what exercises need beside it, which would be a fifth more for every visitor.
 //! Cargo decides what is up to date. Files are rewritten only when their content changes, because the server embeds that
 //! folder and would be rebuilt by a newer date alone.
 
@@ -16,9 +17,15 @@ use crate::{DistArgs, tools, wasm_toolchain};
 /// Paths below a folder, and what the files hold.
 type Contents = BTreeMap<PathBuf, Vec<u8>>;
 
+/// Each module's name and the crate's feature that it is made of.
+const MODULES: [(&str, &str); 2] = [("adaptarm_exercise", "exercise"), ("adaptarm_web", "playground")];
+
 pub(crate) fn run(workspace: &Workspace, args: &DistArgs) -> Result<()> {
-    let module = compile(workspace, args)?;
-    let generated = bindings(workspace, &module, args)?;
+    let mut generated = Contents::new();
+    for (name, feature) in MODULES {
+        let module = compile(workspace, feature, args)?;
+        generated.append(&mut bindings(workspace, &module, name, args)?);
+    }
     let folder = workspace.root.join("static/generated");
     let changed = synchronise(&generated, &folder)?;
     for (path, content) in &generated {
@@ -29,10 +36,11 @@ pub(crate) fn run(workspace: &Workspace, args: &DistArgs) -> Result<()> {
     Ok(())
 }
 
-/// Compiles the browser's crate and returns the module's path.
-fn compile(workspace: &Workspace, args: &DistArgs) -> Result<PathBuf> {
+/// Compiles the browser's crate with one of its features and returns the module's path, which is the same for each.
+fn compile(workspace: &Workspace, feature: &str, args: &DistArgs) -> Result<PathBuf> {
     let (mut command, profiles) = wasm_toolchain::ensure(workspace)?.build(workspace);
-    command.args(["--package", "adaptarm-web", "--lib", "--profile", "web"]);
+    command.args(["--package", "adaptarm-web", "--lib", "--profile", "web", "--no-default-features"]);
+    command.args(["--features", feature]);
     if args.debug_info {
         command.env("CARGO_PROFILE_WEB_DEBUG", "line-tables-only").env("CARGO_PROFILE_WEB_STRIP", "none");
     }
@@ -41,12 +49,13 @@ fn compile(workspace: &Workspace, args: &DistArgs) -> Result<PathBuf> {
 }
 
 /// Runs the generator in a folder of its own and returns what it wrote.
-fn bindings(workspace: &Workspace, module: &Path, args: &DistArgs) -> Result<Contents> {
+fn bindings(workspace: &Workspace, module: &Path, name: &str, args: &DistArgs) -> Result<Contents> {
     // One folder per process: two commands at a time must not read each other's half-written files.
     let staging = workspace.target.join(format!("bindings-{}", std::process::id()));
     let mut bindgen = Bindgen::new();
     bindgen
         .input_path(module)
+        .out_name(name)
         .web(true)?
         .omit_default_module_path(false)
         .typescript(false)

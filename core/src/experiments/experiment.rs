@@ -7,10 +7,11 @@ use super::document::{ExperimentDocument, ExperimentKind};
 use super::fields::Tree;
 use super::layout::{Layout, Place};
 use super::limits::EXPERIMENT_LIMITS;
+use super::replication::Search;
 use super::resolve;
 use super::row::{ResultColumns, Row};
 use super::tuning::TuningPlan;
-use crate::scenario::{Problem, ReadError, Scenario, ScenarioError, read_document, run_each};
+use crate::scenario::{Problem, ReadError, Report, Scenario, ScenarioError, read_document, run_each};
 use serde::Deserializer;
 use std::ops::{ControlFlow, Range};
 
@@ -29,6 +30,8 @@ pub(super) enum Work {
     LaidOut(Layout),
     /// Each generation follows from the one before.
     Searched(TuningPlan),
+    /// What a paper leaves unsaid.
+    Replicated(Search),
 }
 
 /// An experiment that has been checked.
@@ -93,45 +96,91 @@ impl Experiment {
         self.bases.iter().map(|base| base.name.as_str())
     }
 
+    /// Their scenarios.
+    pub fn base_scenarios(&self) -> impl ExactSizeIterator<Item = &Scenario> {
+        self.bases.iter().map(|base| &base.scenario)
+    }
+
+    /// Runs of all kinds at most: those that there are, or what a tuning may come to.
+    pub fn most_runs(&self) -> u64 {
+        match &self.work {
+            Work::LaidOut(layout) => layout.runs(),
+            Work::Searched(plan) => plan.most_runs(),
+            Work::Replicated(search) => search.runs(),
+        }
+    }
+
     pub(super) fn layout(&self) -> Option<&Layout> {
         match &self.work {
             Work::LaidOut(layout) => Some(layout),
-            Work::Searched(_) => None,
+            Work::Searched(_) | Work::Replicated(_) => None,
+        }
+    }
+
+    pub(super) fn search(&self) -> Option<&Search> {
+        match &self.work {
+            Work::Replicated(search) => Some(search),
+            Work::LaidOut(_) | Work::Searched(_) => None,
         }
     }
 
     /// Number of runs; `None` for a tuning, which asks for them generation by generation.
     pub fn runs(&self) -> Option<u64> {
-        self.layout().map(Layout::runs)
+        match &self.work {
+            Work::LaidOut(layout) => Some(layout.runs()),
+            Work::Replicated(search) => Some(search.runs()),
+            Work::Searched(_) => None,
+        }
     }
 
     /// Names of the conditions; empty for a tuning.
     pub fn condition_names(&self) -> Vec<&str> {
-        let conditions = self.layout().map_or(&[][..], |layout| &layout.conditions);
-        conditions.iter().map(|condition| condition.name.as_str()).collect()
+        match &self.work {
+            Work::LaidOut(layout) => layout.conditions.iter().map(|condition| condition.name.as_str()).collect(),
+            Work::Replicated(_) => vec!["nominal"],
+            Work::Searched(_) => Vec::new(),
+        }
     }
 
-    /// The fields that vary from point to point, as JSON pointers.
+    /// The fields that vary from point to point, as JSON pointers; of a replication, its unknowns.
     pub fn fields(&self) -> Vec<&str> {
-        let fields = self.layout().map_or(&[][..], |layout| &layout.fields);
-        fields.iter().map(|field| field.pointer.as_str()).collect()
+        let unknowns = self.document.replication.iter().flat_map(|section| &section.unknowns);
+        let fields = self.layout().into_iter().flat_map(|layout| &layout.fields);
+        fields.map(|field| field.pointer.as_str()).chain(unknowns.map(|unknown| unknown.name.as_str())).collect()
     }
 
     /// Point, condition and base of a run.
     pub fn place(&self, index: u64) -> Option<Place> {
-        self.layout().filter(|layout| index < layout.runs()).map(|layout| layout.place(index))
+        match &self.work {
+            _ if index >= self.runs()? => None,
+            Work::LaidOut(layout) => Some(layout.place(index)),
+            Work::Replicated(search) => Some(search.place(index)),
+            Work::Searched(_) => None,
+        }
     }
 
-    /// Values of the fields at a point, in the order of [`Experiment::fields`]; factors where a field is relative.
+    /// Values of the fields at a point, in the order of [`Experiment::fields`]; factors where a field is relative, and the
+    /// numbers of a replication's options, from 0.
     pub fn values(&self, point: u64) -> Vec<f64> {
-        self.layout().map_or_else(Vec::new, |layout| layout.design.values(layout.seed, point))
+        match &self.work {
+            Work::LaidOut(layout) => layout.design.values(layout.seed, point),
+            Work::Replicated(search) => search.options(point).into_iter().map(|option| option as f64).collect(),
+            Work::Searched(_) => Vec::new(),
+        }
     }
 
     /// The runs of a range; those that there are not are left out. Needs no other run.
     pub fn plan(&self, range: Range<u64>) -> Vec<PlannedRun> {
-        let Some(layout) = self.layout() else { return Vec::new() };
-        let last = range.end.min(layout.runs());
-        (range.start..last).map(|index| PlannedRun { index, scenario: self.scenario(layout, index) }).collect()
+        let scenario = |index| match &self.work {
+            Work::LaidOut(layout) => Some(self.scenario(layout, index)),
+            Work::Replicated(search) => {
+                let bound = |scenario| bounded(scenario, search.runs());
+                Some(search.scenario(&self.bases, index).and_then(bound))
+            }
+            Work::Searched(_) => None,
+        };
+        let last = range.end.min(self.runs().unwrap_or(0));
+        (range.start..last).filter_map(|index| Some(PlannedRun { index, scenario: scenario(index)? })).collect()
     }
 
     fn scenario(&self, layout: &Layout, index: u64) -> Result<Scenario, ScenarioError> {
@@ -159,10 +208,25 @@ impl Experiment {
                     indices.push(run.index);
                     scenarios.push(scenario);
                 }
-                Err(error) => each(Row::refused(run.index, &self.columns, error.to_string()))?,
+                Err(error) => each(self.refused(run.index, &error))?,
             }
         }
-        run_each(&scenarios, |n, run| each(Row::of(indices[n], &self.columns, &run.report)))
+        run_each(&scenarios, |n, run| {
+            each(match &self.work {
+                Work::Replicated(search) => search.row(indices[n], &run),
+                Work::LaidOut(_) | Work::Searched(_) => Row::of(indices[n], &self.columns, &run.report),
+            })
+        })
+    }
+
+    /// What is kept of a run that was made; of a replication's, [`Experiment::run`] keeps more.
+    pub fn row(&self, index: u64, report: &Report) -> Row {
+        Row::of(index, &self.columns, report)
+    }
+
+    /// What is kept of a run whose scenario is not allowed.
+    pub fn refused(&self, index: u64, why: &ScenarioError) -> Row {
+        Row::refused(index, &self.columns, why.to_string())
     }
 }
 

@@ -3,8 +3,11 @@
 //! Works on the document as a generic tree and knows none of its fields: what is added to scenarios can vary at once.
 
 use super::limits::{EXPERIMENT_LIMITS, conflict, unknown};
-use crate::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError};
+use crate::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError, read_document};
 use ciborium::Value;
+use ciborium::value::Error;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 /// A scenario as a tree.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,10 +80,23 @@ impl Tree {
         Ok(())
     }
 
+    /// Merges a change in: members replace members, level by level, and null takes away. Source: RFC 7396.
+    pub fn merge(&mut self, change: &Value) {
+        merge(&mut self.0, change);
+    }
+
     /// Replaces the seed of a run's own noise.
     pub fn set_seed(&mut self, seed: u64) {
         if let Some(value) = find_mut(&mut self.0, "/seed") {
             *value = Value::Integer(seed.into());
+        }
+    }
+
+    /// The scenario that this tree is after something that people wrote was merged in.
+    pub fn merged_scenario(&self) -> Result<Scenario, ScenarioError> {
+        match self.0.deserialized() {
+            Ok(Written(document)) => Scenario::new(document),
+            Err(Error::Custom(message)) => Err(conflict("", message)),
         }
     }
 
@@ -91,6 +107,15 @@ impl Tree {
             .deserialized()
             .map_err(|error| ScenarioError::new("", Problem::Malformed { message: error.to_string() }))?;
         Scenario::new(document)
+    }
+}
+
+/// A scenario as people write it, with whole numbers where there may be fractions.
+struct Written(ScenarioDocument);
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_document(deserializer).map(Self).map_err(D::Error::custom)
     }
 }
 
@@ -121,6 +146,30 @@ fn find_mut<'a>(root: &'a mut Value, pointer: &str) -> Option<&'a mut Value> {
         Value::Array(elements) => elements.get_mut(place(&part)?),
         _ => None,
     })
+}
+
+fn merge(target: &mut Value, change: &Value) {
+    let Value::Map(changes) = change else {
+        *target = change.clone();
+        return;
+    };
+    if !target.is_map() {
+        *target = Value::Map(Vec::new());
+    }
+    let Value::Map(members) = target else { return };
+    for (name, change) in changes {
+        let place = members.iter().position(|(member, _)| member == name);
+        match (place, change) {
+            (Some(place), Value::Null) => drop(members.remove(place)),
+            (None, Value::Null) => {}
+            (Some(place), _) => merge(&mut members[place].1, change),
+            (None, _) => {
+                let mut member = Value::Null;
+                merge(&mut member, change);
+                members.push((name.clone(), member));
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -157,6 +206,27 @@ mod tests {
             gains.k_v[0] *= 2.0;
         }
         assert_eq!(tree.scenario().unwrap().document(), &document);
+    }
+
+    /// The examples of RFC 7396, appendix A, that have a meaning here.
+    #[test]
+    fn changes_are_merged_level_by_level() {
+        let merged = |target: &str, change: &str| {
+            let value = |text: &str| serde_json::from_str::<Value>(text).unwrap();
+            let mut tree = Tree(value(target));
+            tree.merge(&value(change));
+            tree.0
+        };
+        for (target, change, result) in [
+            (r#"{"a":"b"}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"b":"c"}"#, r#"{"a":"b","b":"c"}"#),
+            (r#"{"a":"b","b":"c"}"#, r#"{"a":null}"#, r#"{"b":"c"}"#),
+            (r#"{"a":{"b":"c"}}"#, r#"{"a":{"b":"d","c":null}}"#, r#"{"a":{"b":"d"}}"#),
+            (r#"{"a":[{"b":"c"}]}"#, r#"{"a":[1]}"#, r#"{"a":[1]}"#),
+            (r#"{"a":"c"}"#, r#"{"a":{"bb":{"ccc":null}}}"#, r#"{"a":{"bb":{}}}"#),
+        ] {
+            assert_eq!(merged(target, change), serde_json::from_str::<Value>(result).unwrap(), "{target} {change}");
+        }
     }
 
     #[test]

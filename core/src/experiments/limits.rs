@@ -28,6 +28,18 @@ pub struct ExperimentLimits {
     pub restarts: u32,
     /// Most plants on which a candidate is tried.
     pub plants: u32,
+    /// Most unknowns of a replication, and most options of one.
+    pub unknowns: usize,
+    /// Most horizons of a replication.
+    pub horizons: usize,
+    /// Most windows of a replication.
+    pub windows: usize,
+    /// Most readings of a replication: combinations of options, horizons, windows and units.
+    pub readings: u64,
+    /// Most numbers that the rows of a replication keep.
+    pub kept: u64,
+    /// Factors within which an entry is reached or a reading plausible.
+    pub factor: [f64; 2],
     /// Most characters of a name or title.
     pub name_chars: usize,
     /// Narrowest and widest confidence.
@@ -47,6 +59,12 @@ pub const EXPERIMENT_LIMITS: ExperimentLimits = ExperimentLimits {
     population: [4, 256],
     restarts: 20,
     plants: 256,
+    unknowns: 16,
+    horizons: 32,
+    windows: 16,
+    readings: 2_000_000,
+    kept: 20_000_000,
+    factor: [1.0, 100.0],
     name_chars: 100,
     confidence: [0.5, 0.999],
 };

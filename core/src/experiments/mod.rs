@@ -7,13 +7,13 @@
 mod cmaes;
 mod distribution;
 mod document;
-mod eigen;
 mod experiment;
 mod fields;
 mod latin;
 mod layout;
 mod limits;
 mod normal;
+mod nsga2;
 mod objective;
 mod paired;
 pub mod replication;
@@ -25,6 +25,7 @@ mod statistics;
 mod stream;
 mod summary;
 mod tuning;
+mod tuning_summary;
 
 // Exercises draw, change and name the same things.
 pub(crate) use distribution::Distribution;
@@ -37,8 +38,8 @@ pub(crate) use stream::{Purpose, Stream};
 pub use distribution::{DistributionDocument, DistributionKind};
 pub use document::{
     Aggregate, AxisDocument, BaseDocument, CompareDocument, ConditionDocument, ConstraintDocument, EXPERIMENT_FORMAT,
-    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, PlantsDocument, RandomFieldDocument,
-    SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
+    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, ObjectiveDocument, PlantsDocument,
+    RandomFieldDocument, SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
 };
 pub use experiment::{Experiment, PlannedRun};
 pub use layout::Place;
@@ -48,4 +49,5 @@ pub use results::{FoldError, Results};
 pub use row::{ResultColumns, Row, RowOutcome};
 pub use statistics::{Share, Statistics};
 pub use summary::{GroupSummary, MetricSummary, Refusal, Sensitivity, Summary};
-pub use tuning::{Candidate, Generation, Tuning, TuningError, TuningSummary, Validation};
+pub use tuning::Tuning;
+pub use tuning_summary::{Candidate, Front, FrontCandidate, Generation, TuningError, TuningSummary, Validation};

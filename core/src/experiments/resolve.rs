@@ -10,6 +10,7 @@ use super::fields::{Change, Tree};
 use super::latin::LatinHypercube;
 use super::layout::{Condition, Design, Filling, Layout};
 use super::limits::{EXPERIMENT_LIMITS, check_count, check_name, check_range, conflict, unknown};
+use super::replication::Search;
 use super::row::ResultColumns;
 use super::sobol::Sobol;
 use super::stream::Purpose;
@@ -33,7 +34,7 @@ pub(super) fn resolve(mut document: ExperimentDocument) -> Result<Experiment, Sc
     check_sections(&document)?;
     let bases = bases(&mut document)?;
     let joints = bases.iter().map(|base| base.scenario.robot().joint_count()).max().unwrap_or(0);
-    let columns = ResultColumns::new(joints);
+    let mut columns = ResultColumns::new(joints);
     let (seed, count) = (document.seed, bases.len());
     let work = match document.kind {
         ExperimentKind::Sweep => Work::LaidOut(sweep(section(document.sweep.as_ref())?, seed, &bases)?),
@@ -47,10 +48,17 @@ pub(super) fn resolve(mut document: ExperimentDocument) -> Result<Experiment, Sc
         ExperimentKind::Tuning => {
             Work::Searched(TuningPlan::new(section(document.tuning.as_ref())?, seed, &bases[0], &columns)?)
         }
+        ExperimentKind::Replication => {
+            let section = section(document.replication.as_ref())?;
+            let search = Search::new(section, &bases)?;
+            columns = search.columns(section);
+            Work::Replicated(search)
+        }
     };
     let runs = match &work {
         Work::LaidOut(layout) => layout.runs(),
         Work::Searched(plan) => plan.most_runs(),
+        Work::Replicated(search) => search.runs(),
     };
     if runs > LIMITS.runs {
         let message = format!("asks for {runs} runs in all; at most {} are allowed", LIMITS.runs);
@@ -73,6 +81,7 @@ fn name_of(kind: ExperimentKind) -> &'static str {
         ExperimentKind::MonteCarlo => "monte_carlo",
         ExperimentKind::Compare => "compare",
         ExperimentKind::Tuning => "tuning",
+        ExperimentKind::Replication => "replication",
     }
 }
 
@@ -83,6 +92,7 @@ fn check_sections(document: &ExperimentDocument) -> Result<(), ScenarioError> {
         (ExperimentKind::MonteCarlo, document.monte_carlo.is_some()),
         (ExperimentKind::Compare, document.compare.is_some()),
         (ExperimentKind::Tuning, document.tuning.is_some()),
+        (ExperimentKind::Replication, document.replication.is_some()),
     ];
     for (kind, given) in sections {
         let name = name_of(kind);
@@ -207,6 +217,7 @@ fn compare(document: &CompareDocument, seed: u64, bases: &[Base]) -> Result<Layo
         conditions.push(condition);
     }
     let (fields, distributions) = random_fields(&document.fields, "/compare/fields", &trees)?;
+    check_overrides(&conditions, &fields)?;
     Ok(Layout {
         seed,
         fields,
@@ -216,6 +227,19 @@ fn compare(document: &CompareDocument, seed: u64, bases: &[Base]) -> Result<Layo
         bases: bases.len(),
         vary_seed: document.vary_seed,
     })
+}
+
+/// Refuses random numbers that would take the place of what a condition sets: the condition would change nothing.
+fn check_overrides(conditions: &[Condition], fields: &[Change]) -> Result<(), ScenarioError> {
+    for condition in conditions {
+        let sets = |field: &&Change| condition.changes.iter().any(|(change, _)| change.pointer == field.pointer);
+        if let Some(field) = fields.iter().filter(|field| !field.relative).find(sets) {
+            let (pointer, name) = (&field.pointer, &condition.name);
+            let message = format!("{pointer} is random, so that condition {name:?} sets it in vain; make it relative");
+            return Err(conflict("/compare/fields", message));
+        }
+    }
+    Ok(())
 }
 
 fn sweep(document: &SweepDocument, seed: u64, bases: &[Base]) -> Result<Layout, ScenarioError> {

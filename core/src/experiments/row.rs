@@ -25,7 +25,7 @@ fn all(numbers: &[f64]) -> Vec<Option<f64>> {
 }
 
 /// Metrics in the order of their columns.
-const METRICS: [Entry; 10] = [
+const METRICS: [Entry; 12] = [
     ("index_e_deg", |metrics| all(&metrics.index_e_deg), Joints::Rms),
     ("index_de_deg_s", |metrics| all(&metrics.index_de_deg_s), Joints::Rms),
     ("e_peak_deg", |metrics| all(&metrics.e_peak_deg), Joints::Max),
@@ -36,6 +36,8 @@ const METRICS: [Entry; 10] = [
     ("control_effort_n2m2s", |metrics| all(&metrics.control_effort_n2m2s), Joints::Sum),
     ("settling_e_s", |metrics| metrics.settling_e_s.clone(), Joints::Max),
     ("settling_de_s", |metrics| metrics.settling_de_s.clone(), Joints::Max),
+    ("ultimate_bound_e_deg", |metrics| all(&metrics.ultimate_bound_e_deg), Joints::Max),
+    ("tau_variation_nm_s", |metrics| all(&metrics.tau_variation_nm_s), Joints::Sum),
 ];
 
 /// Columns of an experiment's results: each metric over all joints, then joint by joint.
@@ -53,6 +55,11 @@ impl ResultColumns {
             std::iter::once((*name).to_owned()).chain(single).collect::<Vec<_>>()
         };
         Self { names: METRICS.iter().flat_map(of_metric).collect(), joints }
+    }
+
+    /// Of a replication, which has other numbers: those that its readings ask for.
+    pub(super) fn of_replication(names: Vec<String>) -> Self {
+        Self { names, joints: 0 }
     }
 
     /// Their names: `index_e_deg` over all joints, `index_e_deg_1` of the first.
@@ -133,6 +140,12 @@ impl Row {
     pub(super) fn of(index: u64, columns: &ResultColumns, report: &Report) -> Self {
         let completed = report.outcome == OutcomeKind::Completed;
         let metrics = if completed { columns.of(&report.metrics) } else { vec![None; columns.names.len()] };
+        Self::with(index, report, metrics)
+    }
+
+    /// Of a run that was made, with other numbers.
+    pub(super) fn with(index: u64, report: &Report, metrics: Vec<Option<f64>>) -> Self {
+        let completed = report.outcome == OutcomeKind::Completed;
         let outcome = if completed { RowOutcome::Completed } else { RowOutcome::Diverged };
         Self { index, outcome, at_s: report.at_s, refusal: None, metrics }
     }

@@ -48,6 +48,11 @@ pub(super) struct Action<R: Robot<N, P>, T: Scalar, const N: usize, const P: usi
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T, N, P> {
+    /// Whether its estimates move.
+    pub(crate) fn adapts(&self) -> bool {
+        !matches!(self.adaptation, AnyAdaptation::None)
+    }
+
     /// Number of states.
     pub(super) fn states(&self) -> usize {
         self.theta_hat() + P + self.adaptation.states() + if self.integral.is_some() { N } else { 0 }
@@ -106,6 +111,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
             command -= gain.component_mul(&integral);
         }
         Action { geometry, sign_estimate, estimate, sliding, regressor, command }
+    }
+
+    /// Lets a law that remembers moments look at this one.
+    pub(super) fn record(&self, action: &Action<R, T, N, P>, states: &mut [T]) {
+        if let AnyAdaptation::Concurrent(law) = &self.adaptation {
+            let law_at = self.theta_hat() + P;
+            law.record(&action.geometry, &action.estimate.velocity, &mut states[law_at..]);
+        }
     }
 
     /// The states' derivative at the instant of an action.

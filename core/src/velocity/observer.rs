@@ -2,6 +2,8 @@
 //!
 //! `z = q − q̂`, `ξ̇ = z`, `ζ = q̇_d − Λx e + Kd Λz ξ`, `q̂̇ = ζ + Λz z + Kd z`, and the velocity handed out is
 //! `v* = q̂̇ − Λz z = ζ + Kd z`. The paper prints q̇ where q̂̇ must stand: with q̇ it could not be computed without the sensor.
+//! Eliminating ξ, `q̇ − v* = s/(s + Kd) · (q̇ − q̇_d + Λx e)`: of the deviation from what is desired a filtered difference of
+//! bandwidth Kd. Λz shapes z alone.
 
 use super::{VelocityEstimate, VelocitySource};
 use crate::scalar::Scalar;
@@ -59,6 +61,29 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for ModelFreeObserver<T, N>
         for i in 0..N {
             q_hat_rate[i] = estimate.velocity[i] + self.lambda_z[i] * z[i];
             xi_rate[i] = z[i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::response;
+    use super::*;
+
+    /// With q_d = 0, `v* = jΩ (Kd − Λx) / (jΩ + Kd)` on `q = sin Ω t`, whatever Λz is.
+    #[test]
+    fn lambda_z_has_no_say_in_the_velocity() {
+        for (lambda_z, lambda_x, k_d, frequency) in
+            [(100.0, 60.0, 150.0, 10.0), (20.0, 60.0, 150.0, 10.0), (50.0, 10.0, 300.0, 40.0)]
+        {
+            let [lambda_z, lambda_x, k_d] = [lambda_z, lambda_x, k_d].map(|gain| SVector::from([gain]));
+            let source = ModelFreeObserver { lambda_z, lambda_x, k_d };
+            let worst = response(&source, frequency, |t: f64| {
+                let (a, b, share) = (k_d[0], frequency, k_d[0] - lambda_x[0]);
+                // Im of jb share / (a + jb) e^{jbt}.
+                share * b * (b * (b * t).sin() + a * (b * t).cos()) / (a * a + b * b)
+            });
+            assert!(worst < 1e-6 * frequency, "Λz = {lambda_z}, Λx = {lambda_x}, Kd = {k_d}: {worst}");
         }
     }
 }

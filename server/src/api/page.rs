@@ -165,7 +165,7 @@ mod tests {
             (JobsQuery { limit: text("201"), ..JobsQuery::default() }, "/problems/out-of-range", "from 1 to 200"),
             (JobsQuery { limit: text("ten"), ..JobsQuery::default() }, "/problems/out-of-range", "from 1 to 200"),
             (JobsQuery { state: text("done"), ..JobsQuery::default() }, "/problems/unknown", "queued, running"),
-            (JobsQuery { kind: text("sweep"), ..JobsQuery::default() }, "/problems/unknown", "study"),
+            (JobsQuery { kind: text("sprint"), ..JobsQuery::default() }, "/problems/unknown", "study"),
             (JobsQuery { label: text(&"x".repeat(201)), ..JobsQuery::default() }, "/problems/too-long", "200"),
             (JobsQuery { label: text("a\0"), ..JobsQuery::default() }, "/problems/malformed", "control characters"),
         ] {

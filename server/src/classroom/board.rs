@@ -78,7 +78,8 @@ mod tests {
 
     #[test]
     fn a_criterion_is_missed_by_whoever_has_less_than_all_of_it() {
-        let grade = |a: f64, b: f64| [json!({"id": "a", "points": a, "of": 4.0}), json!({"id": "b", "points": b, "of": 6.0})];
+        let grade =
+            |a: f64, b: f64| [json!({"id": "a", "points": a, "of": 4.0}), json!({"id": "b", "points": b, "of": 6.0})];
         let grades = [grade(4.0, 3.0), grade(3.99, 0.0)];
         let told = criteria(&[&grades[0], &grades[1]]);
         assert_eq!((&told[0]["failing"], &told[1]["failing"]), (&json!(1), &json!(2)));

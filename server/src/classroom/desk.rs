@@ -1,11 +1,13 @@
 //! What the classroom's requests share: its tables, the library, the server's secret, and who may ask how often.
 
-use super::library::Library;
 use super::store::ClassroomStore;
 use super::{problems, secrets};
 use crate::auth::{FailureLimiter, Rate, RateLimiter};
 use crate::config::Config;
 use crate::error::Problem;
+use crate::exercises::{Library, LibraryError};
+use crate::laboratory::data_folder;
+use crate::receipts::ReceiptKey;
 use anyhow::Context;
 use axum::http::{HeaderMap, HeaderName, header};
 use jiff::{SignedDuration, Timestamp};
@@ -43,6 +45,8 @@ pub struct Desk {
     pub library: Library,
     /// What seeds are made from.
     pub secret: String,
+    /// What signs receipts.
+    pub key: ReceiptKey,
     public_url: Option<String>,
     passwords: FailureLimiter,
     codes: FailureLimiter,
@@ -59,6 +63,7 @@ impl Desk {
         Ok(Self {
             secret: store.secret(SEEDS, &fresh).await?,
             library: library(config).context("classroom.exercises")?,
+            key: ReceiptKey::open(&data_folder(config)).context("the key that signs receipts")?,
             store,
             public_url: config.classroom.public_url.clone(),
             passwords: FailureLimiter::new(rate(PASSWORDS_PER_MINUTE)),
@@ -132,12 +137,8 @@ impl Desk {
 }
 
 /// The exercises that can be given out.
-fn library(config: &Config) -> anyhow::Result<Library> {
-    let library = Library::default();
-    match &config.classroom.exercises {
-        Some(folder) => library.with_folder(folder),
-        None => Ok(library),
-    }
+fn library(config: &Config) -> Result<Library, LibraryError> {
+    config.classroom.exercises.as_deref().map_or_else(Library::shipped, Library::with_folder)
 }
 
 /// Makes a link that makes its first user a teacher, once and within its time.

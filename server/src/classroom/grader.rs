@@ -7,8 +7,9 @@ use super::desk::Desk;
 use super::model::{Attempt, Feedback};
 use super::session::{IDLE, LONGEST};
 use super::store::{Outcome, Ripe};
-use super::work;
+use super::{secrets, work};
 use crate::jobs::{JobState, JobStore, StoreError};
+use crate::receipts::{Nonce, Receipt, Statement};
 use adaptarm_core::scenario::Report;
 use jiff::Timestamp;
 use serde_json::json;
@@ -46,7 +47,7 @@ pub async fn grade(desk: Arc<Desk>, jobs: Arc<dyn JobStore>, mut stop: watch::Re
 }
 
 /// Grades what is ripe; how many.
-async fn look(desk: &Desk, jobs: &dyn JobStore) -> Result<usize, StoreError> {
+async fn look(desk: &Arc<Desk>, jobs: &dyn JobStore) -> Result<usize, StoreError> {
     let ripe = desk.store.ripe(AT_A_TIME).await?;
     for Ripe { attempt, job } in &ripe {
         let outcome = match job {
@@ -57,7 +58,9 @@ async fn look(desk: &Desk, jobs: &dyn JobStore) -> Result<usize, StoreError> {
         let outcome = outcome.unwrap_or_else(|reason| {
             tracing::error!(attempt = %attempt.id, "an attempt is given back: {reason}");
             // What failed is for the log; a student is told whose fault it was not.
-            Outcome::Returned("the server failed while grading; the attempt does not count, hand it in again".to_owned())
+            Outcome::Returned(
+                "the server failed while grading; the attempt does not count, hand it in again".to_owned(),
+            )
         });
         desk.store.finish(attempt.id, &outcome).await?;
     }
@@ -66,7 +69,7 @@ async fn look(desk: &Desk, jobs: &dyn JobStore) -> Result<usize, StoreError> {
 
 /// The grade of an attempt whose runs are computed, or why there is none.
 async fn of_reports(
-    desk: &Desk,
+    desk: &Arc<Desk>,
     jobs: &dyn JobStore,
     attempt: &Attempt,
 ) -> Result<Result<Outcome, String>, StoreError> {
@@ -81,16 +84,22 @@ async fn of_reports(
             None => return Ok(Err(format!("report {} is gone", row.n))),
         }
     }
-    let (secret, attempt) = (desk.secret.clone(), attempt.clone());
+    let (desk, attempt) = (desk.clone(), attempt.clone());
     let graded = spawn_blocking(move || {
+        let secret = &desk.secret;
         let exercise = work::exercise(&assignment)?;
         let gains = work::gains(&attempt.gains).ok_or("its gains cannot be read")?;
         let visibility = work::graded_on(&exercise);
-        let seed = work::seed(&secret, attempt.assignment, attempt.student, visibility);
+        let seed = work::seed(secret, attempt.assignment, attempt.student, visibility);
         let grade = exercise.grade(&gains, seed, visibility, &reports).map_err(|error| error.to_string())?;
         let criteria = grade.public().criteria.iter().map(|criterion| json!(criterion)).collect();
         let feedback = json!(Feedback { score: grade.score, criteria }).to_string();
-        Ok(Outcome::Graded { feedback, grade: json!(grade).to_string(), receipt: None })
+        let (now, nonce) = (Timestamp::now(), Nonce::try_from(secrets::nonce(secret, attempt.id))?);
+        // To the microsecond, which is what the tables keep: all places tell the same time.
+        let graded_at = Timestamp::from_microsecond(now.as_microsecond()).unwrap_or(now);
+        let statement = Statement::new(attempt.id.to_string(), graded_at, gains, &grade, seed, &nonce);
+        let receipt = json!(Receipt::sign(statement, &desk.key)).to_string();
+        Ok(Outcome::Graded { feedback, grade: json!(grade).to_string(), receipt, graded_at })
     });
     Ok(graded.await.unwrap_or_else(|panic| Err(format!("grading failed: {panic}"))))
 }

@@ -24,7 +24,8 @@ impl Window {
         let deadline = extension.and_then(|extension| extension.deadline).or(settings.deadline);
         let days = settings.late.map_or(0, |late| i64::from(late.days));
         // Beyond the end of time there is no lateness.
-        let closes_at = deadline.map(|at| at.checked_add(SignedDuration::from_hours(24 * days)).unwrap_or(Timestamp::MAX));
+        let closes_at =
+            deadline.map(|at| at.checked_add(SignedDuration::from_hours(24 * days)).unwrap_or(Timestamp::MAX));
         Self { opens_at: settings.opens_at, deadline, closes_at }
     }
 

@@ -63,10 +63,13 @@ mod tests {
 
     #[tokio::test]
     async fn only_the_password_itself_fits() {
-        let (one, two) = (hash("correct horse".to_owned()).await.unwrap(), hash("correct horse".to_owned()).await.unwrap());
+        let (one, two) =
+            (hash("correct horse".to_owned()).await.unwrap(), hash("correct horse".to_owned()).await.unwrap());
         assert!(one.starts_with("$argon2id$v=19$m=19456,t=2,p=1$") && one != two, "{one} {two}");
         assert!(verify("correct horse".to_owned(), Some(one.clone())).await.unwrap());
-        for (wrong, kept) in [("correct horsf", Some(one)), ("correct horse", None), ("", None), ("x", Some("damaged".to_owned()))] {
+        for (wrong, kept) in
+            [("correct horsf", Some(one)), ("correct horse", None), ("", None), ("x", Some("damaged".to_owned()))]
+        {
             assert!(!verify(wrong.to_owned(), kept).await.unwrap(), "{wrong}");
         }
     }

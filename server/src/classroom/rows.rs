@@ -211,5 +211,6 @@ impl TryFrom<NoteRow> for Note {
 }
 
 fn json<T: DeserializeOwned>(text: &str) -> Result<T, StoreError> {
-    serde_json::from_str(text).map_err(|error| damaged("a document of the classroom that cannot be read:", &error.to_string()))
+    serde_json::from_str(text)
+        .map_err(|error| damaged("a document of the classroom that cannot be read:", &error.to_string()))
 }

@@ -60,15 +60,25 @@ pub fn seed(secret: &str, assignment: Uuid, student: Uuid, visibility: Visibilit
         Visibility::Visible => "visible",
         Visibility::Hidden => "hidden",
     };
+    let digest = mac(secret, &format!("variants {purpose} {assignment} {student}"));
+    let mut first = [0; 8];
+    first.copy_from_slice(&digest[..8]);
+    u64::from_be_bytes(first) >> (u64::BITS - SEED_BITS)
+}
+
+/// What makes the commitments of an attempt's receipt tell nothing: 64 hexadecimal digits, the same ones whenever it is graded.
+pub fn nonce(secret: &str, attempt: Uuid) -> String {
+    hex::encode(mac(secret, &format!("receipt {attempt}")))
+}
+
+/// HMAC-SHA256 with the server's secret.
+fn mac(secret: &str, message: &str) -> [u8; 32] {
     // HMAC takes keys of any length.
     let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(secret.as_bytes()) else {
         unreachable!("HMAC refuses no key");
     };
-    mac.update(format!("variants {purpose} {assignment} {student}").as_bytes());
-    let digest = mac.finalize().into_bytes();
-    let mut first = [0; 8];
-    first.copy_from_slice(&digest[..8]);
-    u64::from_be_bytes(first) >> (u64::BITS - SEED_BITS)
+    mac.update(message.as_bytes());
+    mac.finalize().into_bytes().into()
 }
 
 /// A person's way back in: the address's part behind `#`, which browsers do not send.

@@ -103,7 +103,9 @@ pub enum Outcome {
         /// All of it.
         grade: String,
         /// The signed receipt.
-        receipt: Option<String>,
+        receipt: String,
+        /// When, as the receipt says.
+        graded_at: Timestamp,
     },
     /// Given back, for this reason.
     Returned(String),

@@ -51,8 +51,7 @@ pub fn check_length(pointer: &str, text: &str, [least, most]: [usize; 2]) -> Res
     if (least..=most).contains(&chars) {
         return Ok(());
     }
-    let problem =
-        Problem::OutOfRange { value: chars as f64, min: least as f64, max: most as f64, unit: "characters" };
+    let problem = Problem::OutOfRange { value: chars as f64, min: least as f64, max: most as f64, unit: "characters" };
     Err(ScenarioError::new(pointer, problem))
 }
 

@@ -149,9 +149,9 @@ pub fn leaderboard(shares: &[(uuid::Uuid, Share)], you: Option<uuid::Uuid>) -> V
     // Among equals the order must not tell who they are.
     marks.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     let rank = |points: f64| 1 + marks.iter().filter(|(_, other)| *other > points).count();
-    let entries = marks.iter().map(|(student, points)| {
-        json!({ "rank": rank(*points), "points": points, "you": you == Some(*student) })
-    });
+    let entries = marks
+        .iter()
+        .map(|(student, points)| json!({ "rank": rank(*points), "points": points, "you": you == Some(*student) }));
     json!({ "entries": entries.collect::<Vec<_>>() })
 }
 
@@ -167,7 +167,8 @@ pub fn exercise_for_student(share: &Share, secret: &str, student: uuid::Uuid, re
     let seed = work::seed(secret, share.assignment.id, student, Visibility::Visible);
     let runs = exercise.runs(&exercise.start(), seed, Visibility::Visible).map_err(|error| error.to_string())?;
     let visible: Vec<_> = runs.iter().map(|run| json!(run.document())).collect();
-    Ok(json!({ "exercise": document, "seed": seed, "visible": visible }))
+    let html = super::reading::html(&document).map_err(|error| error.to_string())?;
+    Ok(json!({ "exercise": document, "html": html, "seed": seed, "visible": visible }))
 }
 
 /// Adds one object's fields to another's.

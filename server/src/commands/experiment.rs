@@ -17,10 +17,11 @@ const MOST_THREADS: i64 = 1024;
 Examples:
   adaptarm experiment docs/experiments/robustness.json --out robustness
   adaptarm experiment tuning.json --out tuning --threads 2
+  adaptarm experiment docs/replication/search.json --out search
   adaptarm experiment tuning.json --out tuning --resume     after a kill, a crash, a restart
 
 The folder gets summary.json, experiment.json (with everything filled in), runs.csv and runs.parquet with a row for each run
-(of a tuning best.json, a scenario, and generations.csv), and checkpoint.bin, from which --resume goes on. The files are the
+(of a tuning best.json, a scenario, and generations.csv; of a replication also report.md and figures), and checkpoint.bin, from which --resume goes on. The files are the
 same with any number of threads and however often the work was interrupted.
 
 Exit codes:

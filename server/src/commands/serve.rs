@@ -60,7 +60,9 @@ async fn serve(config: &Config) -> Result<(), Failure> {
     let listener = TcpListener::bind(config.bind).await.map_err(failure)?;
     let bound = listener.local_addr().map_err(failure)?;
     let laboratory = Laboratory::open(config).await.map_err(Failure::chain)?;
-    let state = AppState::new(&laboratory, config, Hosts::of(bound));
+    let desk = laboratory.desk(config).await.map_err(Failure::chain)?;
+    let tool = laboratory.tool(&desk, config).map_err(Failure::chain)?;
+    let state = AppState::new(&laboratory, desk.clone(), tool.clone(), config, Hosts::of(bound));
     let app = router::build_app(state.clone());
     let engine = laboratory.engine.clone();
     let working = tokio::spawn({
@@ -68,14 +70,14 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         async move { engine.run().await }
     });
     let (end, ending) = watch::channel(false);
-    let grading = tokio::spawn(grade(laboratory.desk.clone(), laboratory.store.clone(), ending.clone()));
-    let passing = tokio::spawn(lti::pass_back(laboratory.lti.clone(), ending.clone()));
+    let grading = tokio::spawn(grade(desk.clone(), laboratory.store.clone(), ending.clone()));
+    let passing = tokio::spawn(lti::pass_back(tool, ending.clone()));
     let calling = tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(config), ending));
     let upkeep = tokio::spawn(keep_tidy(
         laboratory.store.clone(),
         laboratory.queue.clone(),
         laboratory.results.clone(),
-        laboratory.desk.clone(),
+        desk.clone(),
         config.retention.clone(),
     ));
     let measuring = tokio::spawn(metrics::keep_small());
@@ -96,7 +98,7 @@ async fn serve(config: &Config) -> Result<(), Failure> {
         "serving"
     );
     print(&format!("adaptarm is listening on http://{bound}\n"))?;
-    if let Some(link) = laboratory.desk.first_link(&format!("http://{bound}")).await.map_err(Failure::chain)? {
+    if let Some(link) = desk.first_link(&format!("http://{bound}")).await.map_err(Failure::chain)? {
         print(&format!("The first teacher begins here, once and within a day: {link}\n"))?;
     }
     let stop = || {

@@ -5,9 +5,14 @@
 
 mod checkpoint;
 mod files;
+mod pictures;
+mod search_report;
 
 pub use checkpoint::CheckpointError;
+pub use files::{File, Found};
+pub use pictures::Picture;
 
+use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, PlannedRun, Results, Row, Summary, Tuning, TuningError, TuningSummary};
 use anyhow::{Context, Result};
 use checkpoint::{Checkpoint, State};
@@ -30,6 +35,8 @@ pub enum Outcome {
     Summary(Box<Summary>),
     /// Of a tuning.
     Tuning(Box<TuningSummary>),
+    /// Of a replication.
+    Replication(Box<ReplicationSummary>),
 }
 
 /// How an experiment is worked on.
@@ -109,11 +116,19 @@ fn lay_out(
     })?;
     bar.finish_and_clear();
     checkpoint.save(&State::Rows(results.rows().cloned().collect()))?;
-    let summary = Summary::of(experiment, &results);
-    if let Some(folder) = folder {
-        files::write(experiment, &results, &summary, folder)?;
+    if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+        let summary = Box::new(summary);
+        if let Some(folder) = folder {
+            files::write(experiment, &Found::Readings(results, summary.clone()), folder)?;
+            search_report::write(experiment, &summary, folder)?;
+        }
+        return Ok(Outcome::Replication(summary));
     }
-    Ok(Outcome::Summary(Box::new(summary)))
+    let summary = Box::new(Summary::of(experiment, &results));
+    if let Some(folder) = folder {
+        files::write(experiment, &Found::Rows(results, summary.clone()), folder)?;
+    }
+    Ok(Outcome::Summary(summary))
 }
 
 /// Generation after generation.
@@ -147,7 +162,7 @@ fn search(
     checkpoint.save(&State::Tuning(Box::new(tuning.clone())))?;
     let summary = tuning.summary(experiment);
     if let Some(folder) = folder {
-        files::write_tuning(experiment, &tuning, &summary, folder)?;
+        files::write(experiment, &Found::Search(Box::new(tuning)), folder)?;
     }
     Ok(Outcome::Tuning(Box::new(summary)))
 }

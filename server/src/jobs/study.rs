@@ -12,7 +12,7 @@ pub enum StudyError {
     #[error(transparent)]
     Document(#[from] ScenarioError),
     /// It would be more work, or more to keep, than one study may be.
-    #[error("the study has {total} {what}; a study may have at most {most}")]
+    #[error("the job has {total} {what}; a job may have at most {most}")]
     TooMuch {
         /// JSON pointer to the scenarios.
         pointer: String,
@@ -67,7 +67,8 @@ impl Study {
     }
 }
 
-fn check_total(pointer: &str, what: &'static str, total: u64, most: u64) -> Result<(), StudyError> {
+/// Refuses too much of something.
+pub(super) fn check_total(pointer: &str, what: &'static str, total: u64, most: u64) -> Result<(), StudyError> {
     if total <= most { Ok(()) } else { Err(StudyError::TooMuch { pointer: pointer.to_owned(), what, total, most }) }
 }
 
@@ -88,10 +89,10 @@ mod tests {
     fn refuses_too_few_too_many_and_too_much_together() {
         let paper = Scheme::SlotineLi.paper();
         assert_eq!(refusal(vec![]), "spec.scenarios: 0 is outside the allowed range 1 to 64 scenarios");
-        assert!(refusal(vec![paper.clone(); 65]).contains("65 scenarios; a study may have at most 64"));
+        assert!(refusal(vec![paper.clone(); 65]).contains("65 scenarios; a job may have at most 64"));
         let mut long = paper.clone();
         long.integration.duration_s = 90_000.0;
-        assert!(refusal(vec![long; 64]).contains("integration steps; a study may have at most 1000000000"));
+        assert!(refusal(vec![long; 64]).contains("integration steps; a job may have at most 1000000000"));
         let mut fine = paper;
         fine.recording.samples = 200_000;
         assert!(refusal(vec![fine; 3]).contains("600000 samples"));

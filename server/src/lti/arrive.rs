@@ -100,7 +100,7 @@ pub async fn destination(tool: &Tool, launch: &Launch, staff: Uuid, context: &Co
     };
     let Some(found) = found else {
         return match launch.role {
-            Role::Teacher => Ok(format!("/teach.html#class={}", context.class)),
+            Role::Teacher => Ok(format!("/teach.html#class/{}", context.class)),
             Role::Student => {
                 let detail =
                     "this link leads to no exercise yet; your teacher must open it once, or choose an exercise for it";
@@ -111,8 +111,8 @@ pub async fn destination(tool: &Tool, launch: &Launch, staff: Uuid, context: &Co
     let line_item = launch.line_item.as_deref();
     tool.store.set_link(context.id, link, found, line_item).await.map_err(LtiError::from)?;
     Ok(match launch.role {
-        Role::Teacher => format!("/teach.html#assignment={found}"),
-        Role::Student => format!("/learn.html#assignment={found}"),
+        Role::Teacher => format!("/teach.html#assignment/{found}"),
+        Role::Student => format!("/learn.html#{found}"),
     })
 }
 

@@ -1,5 +1,5 @@
 //! LTI 1.3: learning platforms such as Moodle and Canvas sign their users in here, choose exercises, tell who is in a course,
-//! and get grades back. `docs/lti.md` is the manual; decision 0019 says why it is done so.
+//! and get grades back. `docs/lti.md` is the manual; decision 0020 says why it is done so.
 //!
 //! [`Tool`] is what requests share, [`LtiStore`] the seam to the tables. What a platform says counts only behind its signature;
 //! what happens in a class is the classroom's affair.

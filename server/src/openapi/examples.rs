@@ -1,6 +1,6 @@
 //! Examples in the description of the API: a request that works as it stands, and answers made by the same code as real ones.
 
-use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
+use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView, examples};
 use crate::api::jobs::{JobView, JobsView};
 use crate::config::Limits;
 use crate::jobs::{Job, JobKind, JobState};
@@ -50,10 +50,24 @@ fn job(state: JobState) -> JobView {
     })
 }
 
-fn result() -> Result<Value, ScenarioError> {
+fn scenario() -> Result<Scenario, ScenarioError> {
     let mut document = Scheme::Proposed.paper();
     (document.integration.duration_s, document.recording.samples) = (0.5, 100);
-    let report = Scenario::new(document)?.run().report;
+    Scenario::new(document)
+}
+
+fn diagnostics() -> Result<Value, ScenarioError> {
+    let scenario = scenario()?;
+    let mut diagnostics = scenario.diagnose(&scenario.run().recording).0;
+    // One of many, so that an example can be read.
+    for meter in [&mut diagnostics.desired_excitation, &mut diagnostics.actual_excitation].into_iter().flatten() {
+        meter.unidentifiable.truncate(1);
+    }
+    Ok(json!(diagnostics))
+}
+
+fn result() -> Result<Value, ScenarioError> {
+    let report = scenario()?.run().report;
     Ok(json!({ "format": "adaptarm.study/1", "complete": true, "state": "succeeded", "reports": [report] }))
 }
 
@@ -65,6 +79,7 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
         ("cancel_job", 200) => json!(job(JobState::Canceled)),
         ("list_jobs", 200) => json!(JobsView { jobs: vec![job(JobState::Succeeded)], next_cursor: None }),
         ("result", 200) => result()?,
+        ("diagnostics", 200) => diagnostics()?,
         ("scenario", 200) => json!(Scheme::Proposed.paper()),
         ("presets", 200) => json!([PresetView::new(&PRESETS[0])?]),
         ("preset", 200) => json!(PresetView::new(&PRESETS[0])?),
@@ -78,6 +93,11 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
             json!({ "id": "2", "event": "state", "data": state.to_string() })
         }
         ("metrics", 200) => json!("# TYPE adaptarm_queue_depth gauge\nadaptarm_queue_depth{state=\"queued\"} 0\n"),
+        ("experiments", 200) => json!(examples().unwrap_or_default().into_iter().take(1).collect::<Vec<_>>()),
+        ("experiment_schema", 200) => json!({ "title": "ExperimentDocument", "type": "object" }),
+        ("file", 200) => {
+            json!("run,point,condition,base,outcome,at_s,index_e_deg\n0,0,nominal,Proposed,completed,,0.0856\n")
+        }
         ("series", 200) => json!("t_s,e_deg_1\n0,0\n0.005,-0.00021\n"),
         _ => return Ok(None),
     }))

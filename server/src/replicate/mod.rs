@@ -30,6 +30,8 @@ Examples:
   adaptarm replicate --duration 600           does convergence change the verdicts?
   adaptarm replicate --from-rest --out rest   the other reading of the start
 
+What the paper leaves unsaid is searched by  adaptarm experiment docs/replication/search.json --out search
+
 Open report.html in the folder afterwards. A claim that does not hold is a finding, not a failure: the exit code is 0.")]
 pub struct ReplicateArgs {
     /// Folder to write into; made if it does not exist.

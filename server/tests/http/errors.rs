@@ -90,7 +90,7 @@ async fn unknown_missing_and_doubled_fields() {
     assert!(problem["detail"].as_str().unwrap().starts_with("missing field `spec`"), "{problem}");
     let problem = app.post(JOBS, r#"{"kind":"study","kind":"study"}"#).await.problem(422, "/problems/malformed");
     assert!(problem["detail"].as_str().unwrap().contains("duplicate field `kind`"));
-    let problem = app.post(JOBS, r#"{"kind":"sweep"}"#).await.problem(422, "/problems/malformed");
+    let problem = app.post(JOBS, r#"{"kind":"survey"}"#).await.problem(422, "/problems/malformed");
     assert_eq!(problem["pointer"], "/kind");
 }
 

@@ -122,7 +122,7 @@ async fn questions_that_make_no_sense_are_refused() {
         ("limit=201", 422, "/problems/out-of-range"),
         ("limit=-1", 422, "/problems/out-of-range"),
         ("state=done", 422, "/problems/unknown"),
-        ("kind=sweep", 422, "/problems/unknown"),
+        ("kind=survey", 422, "/problems/unknown"),
         ("cursor=abc", 422, "/problems/malformed"),
         ("label=a%00", 422, "/problems/malformed"),
         ("colour=red", 400, "/problems/http"),

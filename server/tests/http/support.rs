@@ -87,7 +87,9 @@ impl App {
         config.queue.heartbeat_ms = 20;
         change(&mut config);
         let laboratory = Laboratory::open(&config).await.unwrap();
-        let state = AppState::new(&laboratory, &config, hosts);
+        let desk = laboratory.desk(&config).await.unwrap();
+        let lti = laboratory.tool(&desk, &config).unwrap();
+        let state = AppState::new(&laboratory, desk, lti, &config, hosts);
         let (end, ending) = watch::channel(false);
         tokio::spawn(webhooks::worker::run(laboratory.queue.clone(), laboratory.sender(&config), ending));
         let engine = laboratory.engine.clone();

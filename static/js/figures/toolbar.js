@@ -3,7 +3,6 @@
 import { element } from "../dom.js";
 import { formatNumber } from "../format.js";
 import { strings } from "../strings/index.js";
-import { GROUPS } from "./catalogue.js";
 import { bindPopup } from "./popup.js";
 import { zoomAbout } from "./window.js";
 
@@ -50,7 +49,7 @@ export function buildToolbar(figures, timeline) {
   showAxis();
   showWindow();
 
-  const links = GROUPS.map(({ id }) => element("a", { href: `#figures-${id}` }, texts.groups[id]));
+  const links = figures.groups.map(({ id }) => element("a", { href: `#figures-${id}` }, texts.groups[id]));
   const group = (label, ...children) =>
     element("div", { class: "figure-bar-group", role: "group", "aria-label": label }, children.flat());
   const zooms = [out, button("+", texts.zoomIn, () => zoom(1 / FACTOR)), whole, stretch];

@@ -13,7 +13,7 @@ const UNITS = [
 const REFRESH_MS = 15_000;
 
 /** The reader's own variant of the page's language. */
-function locale() {
+export function locale() {
   const language = document.documentElement.lang || "en";
   return navigator.languages?.find((own) => own.split("-")[0] === language.split("-")[0]) ?? language;
 }

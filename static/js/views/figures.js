@@ -42,17 +42,20 @@ export class Figures {
   focus = null;
   /** Identifiers of all figures on the page, in its order. */
   ids;
+  /** The groups that have one of them. */
+  groups;
 
   /** `app` has bindings, runs, description and timeline; `container` takes toolbar and figures. */
   constructor(app, container) {
     this.#app = app;
     this.ids = available(app.description);
+    this.groups = GROUPS.filter(({ figures }) => figures.some((id) => this.ids.includes(id)));
     this.#cursors = new Cursors(app.timeline, {
       read: ({ dataset: { figure } }, time) =>
         JSON.parse(app.bindings.read_figure(app.runs, figure, this.viewOf(figure, 1), time)),
       lines: ({ dataset: { figure } }) => (traits(figure).focus ? this.#parts() : this.runs),
     });
-    container.append(buildToolbar(this, app.timeline), ...GROUPS.map((group) => this.#section(group)));
+    container.append(buildToolbar(this, app.timeline), ...this.groups.map((group) => this.#section(group)));
     app.timeline.addEventListener("window", () => this.redraw());
   }
 
@@ -141,8 +144,7 @@ export class Figures {
   viewOf(figure, scale) {
     const { timeline } = this.#app;
     const [from_s, to_s] = timeline.isZoomed ? timeline.window : [null, null];
-    const names = new Map(this.#app.description.schemes.map(({ id, name }) => [id, name]));
-    const live = this.shown.map((id) => ({ id, label: names.get(id), faded: false, color: null }));
+    const live = this.#schemes().map(({ id, name, paint }) => ({ id, label: name, faded: false, color: paint?.() ?? null }));
     const faded = this.overlays.map(({ id, label, color }) => ({ id, label, faded: true, color }));
     const focus = this.runs.some(({ id }) => id === this.focus) ? this.focus : (this.runs[0]?.id ?? null);
     return JSON.stringify({

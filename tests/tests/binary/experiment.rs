@@ -99,7 +99,10 @@ fn one_thread_and_two_write_the_same_table() -> Result<()> {
     let (one, two) = (one?, two?);
     assert!(one == two);
     let names: Vec<_> = one.keys().filter_map(|name| name.to_str()).collect();
-    assert_eq!(names, ["checkpoint.bin", "experiment.json", "runs.csv", "runs.parquet", "summary.json"]);
+    assert_eq!(
+        names,
+        ["boxes.svg", "checkpoint.bin", "experiment.json", "ranking.svg", "runs.csv", "runs.parquet", "summary.json"]
+    );
     let csv = String::from_utf8(one[Path::new("runs.csv")].clone())?;
     let lines: Vec<_> = csv.lines().collect();
     assert_eq!(lines.len(), 41);
@@ -171,15 +174,53 @@ fn what_is_wrong_is_said_on_one_line() -> Result<()> {
 /// The examples of the manual are right, whatever they would take to run.
 #[test]
 fn the_examples_of_the_manual_are_experiments() -> Result<()> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/experiments");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
     let mut count = 0;
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let text = fs::read_to_string(&path)?;
-        let read = adaptarm_core::experiments::Experiment::read(&mut serde_json::Deserializer::from_str(&text));
-        ensure!(read.is_ok(), "{}: {:?}", path.display(), read.err().map(|error| error.to_string()));
-        count += 1;
+    for folder in ["experiments", "experiments/sensorless", "replication"].map(|name| docs.join(name)) {
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.extension().is_none_or(|extension| extension != "json") {
+                continue;
+            }
+            let text = fs::read_to_string(&path)?;
+            let read = adaptarm_core::experiments::Experiment::read(&mut serde_json::Deserializer::from_str(&text));
+            ensure!(read.is_ok(), "{}: {:?}", path.display(), read.err().map(|error| error.to_string()));
+            count += 1;
+        }
     }
-    assert!(count >= 5);
+    assert!(count >= 18, "{count}");
+    Ok(())
+}
+
+/// The search says the same with any number of threads, and its report stands beside its rows.
+#[test]
+fn a_replication_search_reports_what_it_found() -> Result<()> {
+    let folder = tempfile::tempdir()?;
+    let bases: Vec<_> = ["proposed", "tang_arteaga", "slotine_li"]
+        .map(|scheme| json!({ "name": scheme, "scenario": scenario(scheme, 1.0) }))
+        .into();
+    let options = json!([{ "name": "moving" }, { "name": "at rest", "change": { "initial": { "velocity": "rest" } } }]);
+    let section = json!({ "unknowns": [{ "name": "start", "options": options }], "horizons_s": [1, 0.8],
+        "windows": [{ "name": "whole" }], "units": ["labelled", "radians"] });
+    let document =
+        json!({ "format": "adaptarm.experiment/1", "kind": "replication", "bases": bases, "replication": section });
+    let file = write(folder.path(), &document)?;
+    let [one, two] = ["1", "2"].map(|threads| (threads, folder.path().join(threads)));
+    let mut found = Vec::new();
+    for (threads, out) in [&one, &two] {
+        found.push((summary(&command(&file, &["--threads", threads], out)?.output()?)?, files(out)?));
+    }
+    assert_eq!(found[0].0, found[1].0);
+    for (name, bytes) in &found[0].1 {
+        assert!(name.ends_with("checkpoint.bin") || bytes == &found[1].1[name], "{}", name.display());
+    }
+    assert_eq!((found[0].0["runs"].as_u64(), found[0].0["complete"].as_u64()), (Some(6), Some(8)));
+    let report = fs::read_to_string(one.1.join("report.md"))?;
+    let place = |text: &str| report.find(text).with_context(|| format!("no {text:?} in the report"));
+    ensure!(place("**Distance**")? < place("## The nearest readings")?, "results stand before what distance means");
+    ensure!(place("| start | moving; at rest | all schemes |")? < place("## The paper's claims")?);
+    for figure in ["entries.svg", "unknowns.svg"] {
+        ensure!(report.contains(figure) && fs::read_to_string(one.1.join(figure))?.starts_with("<svg"), "{figure}");
+    }
     Ok(())
 }

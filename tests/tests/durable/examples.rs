@@ -32,13 +32,22 @@ pub fn manual() -> Result<()> {
     let folder = tempfile::tempdir()?;
     let here = |text: &str| text.replace(ADDRESS, &server.url);
 
-    let [shell] = blocks("sh")[..] else { anyhow::bail!("one block for the shell is expected") };
-    let told = run(Command::new("bash").args(["-euo", "pipefail", "-c", &here(shell)]), folder.path())?;
+    let [study, experiment] = blocks("sh")[..] else { anyhow::bail!("two blocks for the shell are expected") };
+    let shell = |block: &str| run(Command::new("bash").args(["-euo", "pipefail", "-c", &here(block)]), folder.path());
+    let told = shell(study)?;
     ensure!(told.contains("event: summary") && told.contains("\"state\":\"succeeded\""), "{told}");
     let read = |name: &str| fs::read(folder.path().join(name)).context(name.to_owned());
     ensure!(read("errors.csv")?.starts_with(b"t_s,e_deg_1\n0.0,"), "the samples");
     ensure!(read("torques.png")?.starts_with(b"\x89PNG"), "the picture");
     ensure!(read("result.json")?.starts_with(b"{\"format\":\"adaptarm.study/1\",\"complete\":true"), "the result");
+
+    shell(experiment)?;
+    ensure!(
+        read("experiment-result.json")?.starts_with(b"{\"format\":\"adaptarm.experiment_result/1\",\"complete\":true"),
+        "the experiment"
+    );
+    ensure!(read("runs.csv")?.split(|byte| *byte == b'\n').count() == 22, "a header, twenty runs, the end");
+    ensure!(read("boxes.png")?.starts_with(b"\x89PNG"), "the picture of an experiment");
 
     let python = machine::python().context("ADAPTARM_PYTHON names no interpreter")?;
     let [client, receiver] = blocks("python")[..] else { anyhow::bail!("two blocks of Python are expected") };

@@ -9,8 +9,9 @@ mod resolve;
 mod schema;
 
 pub use document::{
-    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, IntegralDocument, PayloadDocument,
-    SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument, VelocityKind,
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
+    IntegralDocument, PayloadDocument, SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument,
+    VelocityKind,
 };
 pub(super) use resolve::resolve;
 

@@ -58,10 +58,32 @@ pub(super) fn adaptation(schema: &mut Schema) {
             ("weight", limits::STRENGTH),
             ("forgetting", limits::STRENGTH),
             ("gain_limit", limits::GAIN_LIMIT),
+            ("record_every_s", limits::RECORD_S),
+            ("rate_per_s", limits::STRENGTH),
+            ("excitation_floor", limits::EXCITATION_FLOOR),
         ],
     );
-    let least_squares = ["filter_rad_s", "weight", "forgetting", "gain_limit"];
-    kinds(schema, &[(&["scheme"], &least_squares), (&["least_squares"], &[])]);
+    let [fewest, most] = limits::STACK;
+    refine(schema, "/properties/stack", &json_schema!({ "minimum": fewest, "maximum": most }));
+    let all = [
+        "filter_rad_s",
+        "weight",
+        "forgetting",
+        "gain_limit",
+        "stack",
+        "record_every_s",
+        "rate_per_s",
+        "excitation_floor",
+    ];
+    kinds(
+        schema,
+        &[
+            (&["scheme"], &all),
+            (&["least_squares"], &all[4..]),
+            (&["concurrent"], &["forgetting", "gain_limit", "rate_per_s", "excitation_floor"]),
+            (&["drem"], &["weight", "gain_limit", "stack", "record_every_s"]),
+        ],
+    );
 }
 
 /// Of integral action.
@@ -99,6 +121,18 @@ pub(super) fn payload(schema: &mut Schema) {
 pub(super) fn stribeck(schema: &mut Schema) {
     per_joint(schema, &[("excess_nm", limits::EXCESS_NM)]);
     ranges(schema, &[("velocity_rad_s", limits::STRIBECK_RAD_S)]);
+}
+
+/// Of elastic joints.
+pub(super) fn elasticity(schema: &mut Schema) {
+    per_joint(
+        schema,
+        &[
+            ("stiffness_nm_rad", limits::STIFFNESS_NM_RAD),
+            ("damping_nms_rad", limits::SPRING_DAMPING_NMS_RAD),
+            ("motor_inertia_kgm2", limits::MOTOR_INERTIA_KGM2),
+        ],
+    );
 }
 
 /// Of all imperfections.

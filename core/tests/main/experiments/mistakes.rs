@@ -39,6 +39,17 @@ fn mistakes_name_field_value_and_range() {
         said.starts_with("compare.conditions[0].set: with base \"proposed\": scheme.gains.beta: -1 is outside"),
         "{said}"
     );
+    let distribution = json!({ "kind": "uniform", "min": 1, "max": 9 });
+    let in_vain = json!({ "conditions": [{ "name": "x", "set": [{ "field": beta, "value": 4 }] }],
+        "fields": [{ "field": beta, "distribution": distribution }] });
+    let said = error("compare", in_vain.clone());
+    assert!(
+        said.starts_with("compare.fields: /scheme/gains/beta is random, so that condition \"x\" sets it in vain"),
+        "{said}"
+    );
+    let mut as_a_factor = in_vain;
+    as_a_factor["fields"][0]["relative"] = json!(true);
+    assert!(experiment("compare", &["proposed"], &as_a_factor).is_ok());
     let mut section = tuning_section();
     section["variables"][1]["min"] = json!(6);
     assert!(

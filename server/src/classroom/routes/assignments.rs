@@ -10,6 +10,7 @@ use super::super::{model::Role, problems, texts, views};
 use super::{attempts, change, change_as, own_assignment, own_class, own_pair, read};
 use crate::api::{JsonBytes, Name};
 use crate::error::Problem;
+use crate::exercises::Library;
 use crate::routes::problems::database;
 use crate::state::AppState;
 use adaptarm_core::scenario::{Problem as Wrong, ScenarioError};
@@ -105,6 +106,11 @@ impl Asked {
     }
 }
 
+/// Identifiers of all exercises, for whoever asked for another.
+fn ids(library: &Library) -> String {
+    library.iter().map(|exercise| exercise.document().id.as_str()).collect::<Vec<_>>().join(", ")
+}
+
 /// Gives an exercise to a class.
 pub(super) async fn create(
     State(state): State<AppState>,
@@ -126,7 +132,7 @@ pub async fn give_out(desk: &Desk, class: Uuid, teacher: Uuid, exercise: &str) -
 async fn add(desk: &Desk, class: Uuid, teacher: Uuid, asked: Asked) -> Result<Assignment, Problem> {
     let name = asked.exercise.clone();
     let unknown = || {
-        let problem = Wrong::Unknown { value: crate::document::brief(&name), allowed: desk.library.ids() };
+        let problem = Wrong::Unknown { value: crate::document::brief(&name), allowed: ids(&desk.library) };
         ScenarioError::new("/exercise", problem)
     };
     let document = desk.library.get(&name).ok_or_else(unknown)?.document();
@@ -220,7 +226,10 @@ pub(super) async fn extend(
     let [_, most] = texts::COMMENT_CHARS;
     let comment = texts::line("/comment", &comment, [0, most])?;
     let extension = Extension { assignment: assignment.id, student: student.id, deadline, attempts, comment };
-    let data = json!({ "assignment": assignment.id, "extension": views::extension(&extension) });
+    // The comment goes with the student, and the note stays.
+    let data = json!({
+        "assignment": assignment.id, "student": student.id, "deadline": deadline, "attempts": attempts,
+    });
     change(&state, &teacher, class.id, Change::SetExtension(extension.clone()), "extension.set", data).await?;
     Ok(Json(views::extension(&extension)))
 }

@@ -5,13 +5,14 @@ use super::super::model::{Attempt, AttemptState, Person};
 use super::super::session::Student;
 use super::super::store::{Handed, NewAttempt};
 use super::super::work::{self, Work};
-use super::super::{problems, views};
+use super::super::{problems, secrets, views};
 use super::{ROOT, exercise, read};
 use crate::api::headers::{IDEMPOTENCY_REPLAYED, idempotency_key};
 use crate::api::{JsonBytes, Name};
 use crate::error::Problem;
 use crate::events::Sight;
 use crate::jobs::{JobKind, NewJob, NewScenario};
+use crate::receipts::{Nonce, Reveal};
 use crate::routes::problems::{database, draining};
 use crate::state::AppState;
 use adaptarm_core::exercises::Exercise;
@@ -198,12 +199,37 @@ pub(super) async fn receipt(
 ) -> Result<Response, Problem> {
     let attempt = own(&state, &student, &id).await?;
     let papers = state.desk.store.papers(attempt.id).await.map_err(database)?;
-    let Some(receipt) = papers.receipt else {
-        let (detail, state) = (format!("the attempt is {}: it has no receipt", attempt.state.id()), attempt.state.id());
-        let problem = Problem::new(StatusCode::CONFLICT, "/problems/not-ready", "No receipt", detail);
-        return Err(problem.with("state", state));
-    };
+    let receipt = papers.receipt.ok_or_else(|| not_ready(&attempt, "it has no receipt"))?;
     Ok(([(header::CONTENT_TYPE, "application/json")], receipt).into_response())
+}
+
+fn not_ready(attempt: &Attempt, why: &str) -> Problem {
+    let state = attempt.state.id();
+    let detail = format!("the attempt is {state}: {why}");
+    Problem::new(StatusCode::CONFLICT, "/problems/not-ready", "Not there yet", detail).with("state", state)
+}
+
+/// What opens the receipt's commitments: the seed of the hidden variants, once nobody can hand in any more.
+pub(super) async fn reveal(
+    State(state): State<AppState>,
+    Student(student, _): Student,
+    Name(id): Name,
+) -> Result<Json<Reveal>, Problem> {
+    let attempt = own(&state, &student, &id).await?;
+    let work = find(&state, &student, &attempt.assignment.to_string()).await?;
+    if attempt.state != AttemptState::Graded || !marks::is_over(&work.assignment, &work.extensions, Timestamp::now()) {
+        return Err(not_ready(&attempt, "its variants are shown when it is graded and nobody can hand in any more"));
+    }
+    let (exercise, secret) = (exercise(&work.assignment)?, &state.desk.secret);
+    let seed = work::seed(secret, attempt.assignment, student.id, work::graded_on(&exercise));
+    let nonce = Nonce::try_from(secrets::nonce(secret, attempt.id)).map_err(crate::routes::internal)?;
+    let mut reveal = Reveal::new(seed, nonce, Some(&exercise));
+    if let Some(document) = &mut reveal.exercise {
+        // Texts are no part of what was graded, and the teacher may keep the explanation.
+        document.explanation = None;
+        document.hints.clear();
+    }
+    Ok(Json(reveal))
 }
 
 /// What a follower is at.
@@ -229,7 +255,8 @@ pub(super) async fn events(
         loop {
             let now = state.desk.store.attempt(attempt.id).await.ok().flatten()?;
             if now.state != AttemptState::Grading {
-                let event = Event::default().event("attempt").data(view(&state, &student, &now).await.ok()?.to_string());
+                let event =
+                    Event::default().event("attempt").data(view(&state, &student, &now).await.ok()?.to_string());
                 return Some((Ok::<_, Infallible>(event), (state, student, attempt, sight, Following::Ended)));
             }
             if state.is_draining() {

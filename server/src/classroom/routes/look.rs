@@ -4,7 +4,7 @@ use super::super::gradebook::{Shape, table};
 use super::super::model::{Assignment, Attempt, Person, Role};
 use super::super::session::{Signed, Teacher};
 use super::super::work::{self, Work};
-use super::super::{board, problems, views};
+use super::super::{board, problems, reading, views};
 use super::{exercise, own_assignment, own_class, own_pair};
 use crate::api::{Name, Query};
 use crate::document::brief;
@@ -25,9 +25,15 @@ use std::collections::BTreeMap;
 const ENTRIES: i64 = 1000;
 
 /// The library, with what only teachers see.
-pub(super) async fn exercises(State(state): State<AppState>, _: Teacher) -> Json<Value> {
-    let documents: Vec<_> = state.desk.library.all().map(Exercise::document).collect();
-    Json(json!({ "exercises": documents }))
+pub(super) async fn exercises(State(state): State<AppState>, _: Teacher) -> Result<Json<Value>, Problem> {
+    let view = |exercise: &Exercise| {
+        let document = exercise.document();
+        let mut view = json!(document);
+        views::merge(&mut view, json!({ "html": reading::html(document).map_err(crate::routes::internal)? }));
+        Ok::<_, Problem>(view)
+    };
+    let documents = state.desk.library.iter().map(view).collect::<Result<Vec<_>, _>>()?;
+    Ok(Json(json!({ "exercises": documents })))
 }
 
 /// A class's work on an assignment.

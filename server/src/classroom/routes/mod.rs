@@ -62,6 +62,7 @@ pub fn routes() -> Router<AppState> {
         .route("/attempts/{id}", get(attempts::show))
         .route("/attempts/{id}/events", get(attempts::events))
         .route("/attempts/{id}/receipt", get(attempts::receipt))
+        .route("/attempts/{id}/reveal", get(attempts::reveal))
         .merge(crate::lti::api());
     Router::new().nest(ROOT, below)
 }

@@ -1,7 +1,7 @@
 //! A user's way in: login, launch, and from there into the classroom or to the choice of an exercise.
 //!
 //! The laboratory is never shown inside a platform's page: its session's cookie stays `SameSite=Strict`. What is shown there are
-//! three small pages that carry a ticket, good once (decision 0019). Only the login's own cookie can be sent from a frame.
+//! three small pages that carry a ticket, good once (decision 0020). Only the login's own cookie can be sent from a frame.
 
 use super::super::arrive::{self, arrive, destination, redeem, ticket};
 use super::super::claims::{Launch, Wish};
@@ -183,7 +183,7 @@ async fn offer(
     let ticket = ticket(&state.lti, choice, CHOOSE_WITHIN).await?;
     let frames = pages::origins(platform, Some(&choice.return_url));
     let exercises =
-        state.desk.library.all().map(Exercise::document).map(|exercise| (exercise.id.as_str(), &exercise.title));
+        state.desk.library.iter().map(Exercise::document).map(|exercise| (exercise.id.as_str(), &exercise.title));
     Ok(pages::choose(Language::of(headers), &frames, &ticket, exercises))
 }
 

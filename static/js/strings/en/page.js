@@ -16,7 +16,7 @@ export const page = {
     "Three controllers make the same simulated robot arm follow the same path without knowing its masses and frictions: " +
     "they learn 18 parameters on the way. Move a slider and every curve and number is computed again, here in your browser. " +
     "The proposed scheme does it without measuring velocity.",
-  pages: { playground: "Playground", jobs: "Jobs", api: "API" },
+  pages: { playground: "Playground", classroom: "Classroom", jobs: "Jobs", api: "API" },
   pagesLabel: "Pages",
   toolbar: "Tools",
   sections: "Sections",

@@ -19,7 +19,7 @@ export const page = {
     "Tres controladores llevan el mismo brazo simulado por la misma trayectoria sin conocer sus masas ni sus fricciones: aprenden " +
     "18 parámetros por el camino. Mueva un control deslizante y todas las curvas y números se calculan de nuevo, aquí, en su " +
     "navegador. El esquema propuesto lo hace sin medir la velocidad.",
-  pages: { playground: "Laboratorio", jobs: "Trabajos", api: "API" },
+  pages: { playground: "Laboratorio", classroom: "Aula", jobs: "Trabajos", api: "API" },
   pagesLabel: "Páginas",
   toolbar: "Herramientas",
   sections: "Secciones",

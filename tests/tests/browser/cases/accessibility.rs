@@ -114,7 +114,7 @@ fn dialogs(page: &Page<'_>, what: &str) -> Result<()> {
     Ok(())
 }
 
-fn examine(page: &Page<'_>, what: &str) -> Result<()> {
+pub(super) fn examine(page: &Page<'_>, what: &str) -> Result<()> {
     let found = run(page)?;
     ensure!(found["passes"].as_u64().is_some_and(|passes| passes > 0), "{what}: axe did not run: {found}");
     let violations = found["violations"].as_array().context("no answer")?;

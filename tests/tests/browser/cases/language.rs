@@ -9,9 +9,10 @@ use serde_json::json;
 
 const BETA: &str = "/scheme/gains/beta";
 
-/// Compares two trees of texts; `open` are groups that a language fills as it needs.
-const COMPARE: &str = "const [open, done] = arguments; (async () => { \
-    const { en } = await import('/js/strings/en/index.js'); const { es } = await import('/js/strings/es/index.js'); \
+/// Compares the two trees of texts of a folder; `open` are groups that a language fills as it needs.
+pub(super) const COMPARE: &str = "const [folder, open, done] = arguments; (async () => { \
+    const [english, spanish] = await Promise.all(['en', 'es'].map((code) => import(`/js/strings/${code}/${folder}index.js`))); \
+    const en = english.en ?? english.classroom; const es = spanish.es ?? spanish.classroom; \
     const differences = []; let texts = 0; \
     const kind = (value) => (Array.isArray(value) ? 'list' : value === null ? 'null' : typeof value); \
     const compare = (path, a, b) => { \
@@ -44,7 +45,7 @@ pub fn both_languages_have_the_same_texts(bench: &Bench) -> Result<()> {
     // Translations of the core's English texts: English has none. So it is with the tour's claims and their criteria.
     let open = ["core.schemes", "core.gains", "core.parameters", "core.joints", "core.robots", "core.presets"];
     let open: Vec<_> = open.into_iter().chain(["core.presetDescriptions"]).collect();
-    let found = page.run_async(COMPARE, &[json!(open)])?;
+    let found = page.run_async(COMPARE, &[json!(""), json!(open)])?;
     ensure!(found["differences"] == json!([]), "the languages differ: {}", found["differences"]);
     ensure!(found["texts"].as_u64().is_some_and(|texts| texts > 90), "hardly a text was compared: {found}");
     let wrong = page.run_async(COVERAGE, &[])?;

@@ -4,7 +4,10 @@ mod accessibility;
 mod appearance;
 mod arm;
 pub mod benchmark;
+mod classroom;
+mod classroom_pages;
 mod compare;
+mod experiments;
 mod explain;
 mod exports;
 mod figures;
@@ -22,6 +25,7 @@ mod memory;
 mod offline;
 mod pinned;
 mod resilience;
+mod school;
 mod server_run;
 mod sliders;
 mod tour;
@@ -76,8 +80,18 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_phone_shows_the_run_on_the_server", server_run::a_phone_shows_the_run_on_the_server),
     ("the_jobs_page_lists_filters_cancels_and_deletes", jobs::the_jobs_page_lists_filters_cancels_and_deletes),
     ("a_job_shows_its_results_and_opens_in_the_playground", jobs::a_job_opens_in_the_playground),
+    ("an_experiment_is_submitted_by_hand", experiments::an_experiment_is_submitted_by_hand),
+    ("experiments_show_tables_figures_and_files", experiments::experiments_show_tables_figures_and_files),
+    ("the_best_of_a_tuning_opens_in_the_playground", experiments::the_best_of_a_tuning_opens_in_the_playground),
+    ("experiments_fit_a_phone_in_both_languages", experiments::experiments_fit_a_phone_in_both_languages),
     ("a_study_is_submitted_by_hand", jobs::a_study_is_submitted_by_hand),
     ("the_jobs_page_fits_a_phone", jobs::the_jobs_page_fits_a_phone),
+    ("a_whole_class_is_graded_and_the_numbers_agree", classroom::a_whole_class_is_graded_and_the_numbers_agree),
+    ("the_classroom_goes_by_keyboard", classroom_pages::the_classroom_goes_by_keyboard),
+    ("the_classroom_fits_a_phone_in_both_languages", classroom_pages::the_classroom_fits_a_phone),
+    ("whoever_leaves_the_classroom_comes_back_or_is_erased", classroom_pages::whoever_leaves_comes_back_or_is_erased),
+    ("axe_finds_nothing_in_the_classroom", classroom_pages::axe_finds_nothing_in_the_classroom),
+    ("the_classroom_s_languages_have_the_same_texts", classroom_pages::both_languages_have_the_same_texts),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
     ("a_missing_module_is_explained", resilience::a_missing_module_is_explained),
     ("a_dead_worker_is_replaced", resilience::a_dead_worker_is_replaced),

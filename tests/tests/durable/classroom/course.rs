@@ -60,7 +60,7 @@ fn whole(server: &Server, arguments: &[&str]) -> Result<()> {
     let entries = board["entries"].as_array().context("no entries")?;
     ensure!(entries.len() == 3 && entries[0] == json!({ "rank": 1, "points": 50.0, "you": true }), "{board}");
     ensure!(!board.to_string().contains("Bea"), "{board}");
-    papers(&teacher, &class, &assignment, &well, &best)?;
+    papers(server, &teacher, &class, &assignment, &well, &best)?;
     leave(server, &teacher, &class, &badly)
 }
 
@@ -91,7 +91,7 @@ fn preview(student: &Visitor, assignment: &str) -> Result<()> {
     let documents: Vec<_> = runs.iter().map(|run| json!(run.document())).collect();
     ensure!(view["visible"] == json!(documents), "{view}");
     let told = view.to_string();
-    for secret in ["hidden", "SOLUTION", "NOTE-FOR", "EXPLANATION-OF", "HINT-TWO", "vary_seed"] {
+    for secret in ["hidden", "solution-stiff", "NOTE-FOR", "EXPLANATION-OF", "HINT-TWO"] {
         ensure!(!told.contains(secret), "{secret} in {told}");
     }
     Ok(())
@@ -124,7 +124,7 @@ fn look(teacher: &Visitor, assignment: &str, students: &[&Visitor], poor: &Value
         spread.len() == 10 && spread[9] == 1 && spread.iter().filter_map(Value::as_u64).sum::<u64>() == 2,
         "{board}"
     );
-    let mean = (50.0 + poor["points"].as_f64().context("no points")?) / 2.0;
+    let mean = f64::midpoint(50.0, poor["points"].as_f64().context("no points")?);
     ensure!((board["mean_points"].as_f64().context("no mean")? - mean).abs() < 1e-9, "{board}");
     ensure!(board["commonest_failure"] == "error" && board["criteria"][0]["failing"] == 1, "{board}");
     Ok(())
@@ -195,7 +195,7 @@ fn books(teacher: &Visitor, class: &str, well: &Visitor, badly: &Visitor, poor: 
         ensure!(answer.header("content-type").starts_with("text/csv"), "{answer}");
         Ok(String::from_utf8(answer.body)?.lines().map(str::to_owned).collect::<Vec<_>>())
     };
-    let points = &poor["points"];
+    let points = poor["points"].as_f64().context("no points")?;
     let canvas = book("canvas")?;
     let class_name = "\"Control, spring\"";
     let expected = [
@@ -222,13 +222,22 @@ fn books(teacher: &Visitor, class: &str, well: &Visitor, badly: &Visitor, poor: 
 }
 
 /// The explanation comes when the deadline is over for everyone; then attempts are late, then refused.
-fn papers(teacher: &Visitor, class: &str, assignment: &str, student: &Visitor, attempt: &str) -> Result<()> {
+fn papers(
+    server: &Server,
+    teacher: &Visitor,
+    class: &str,
+    assignment: &str,
+    student: &Visitor,
+    attempt: &str,
+) -> Result<()> {
     let set = |change: Value| teacher.patch(&format!("/assignments/{assignment}"), &change)?.expect(200);
     let released = || {
         let view = student.get(&format!("/assignments/{assignment}"))?.expect(200)?;
         Ok::<_, anyhow::Error>((view["state"].clone(), view["exercise"].get("explanation").is_some()))
     };
     ensure!(released()? == (json!("open"), false));
+    let reveal = format!("/attempts/{attempt}/reveal");
+    student.get(&reveal)?.expect_status(409)?;
     // A day and a half ago: two days have begun.
     let past = jiff::Timestamp::now() - jiff::SignedDuration::from_hours(36);
     set(json!({ "deadline": past.to_string() }))?;
@@ -236,7 +245,8 @@ fn papers(teacher: &Visitor, class: &str, assignment: &str, student: &Visitor, a
     let late = student.graded(&student.hand_in(assignment, &stiff())?)?;
     ensure!(late["late_percent"] == 20.0 && late["points"] == 40.0 && late["counts"] == false, "{late}");
     let early = student.graded(attempt)?;
-    ensure!(early["points"] == 50.0 && early["counts"] == true, "{early}");
+    // Handed in after the deadline as it is now, and earlier than the other.
+    ensure!(early["points"] == 40.0 && early["counts"] == true, "{early}");
     set(json!({ "late": null }))?;
     ensure!(released()? == (json!("closed"), false), "someone has an extension until 2201");
     let path = format!("/assignments/{assignment}/attempts");
@@ -248,6 +258,45 @@ fn papers(teacher: &Visitor, class: &str, assignment: &str, student: &Visitor, a
         teacher.delete(&format!("/assignments/{assignment}/extensions/{whose}"))?.expect_status(204)?;
     }
     ensure!(released()? == (json!("closed"), true), "nobody can hand in any more");
+    let receipt = student.get(&format!("/attempts/{attempt}/receipt"))?.expect(200)?;
+    receipts(server, &receipt, &student.get(&reveal)?.expect(200)?, &early)
+}
+
+/// The receipt is signed by the server's key and runs again to the same bits; a forged one is refused.
+fn receipts(server: &Server, receipt: &Value, reveal: &Value, attempt: &Value) -> Result<()> {
+    let statement = &receipt["statement"];
+    ensure!(statement["gains"] == attempt["gains"] && statement["grade"]["score"] == attempt["score"], "{receipt}");
+    ensure!(statement["graded_at"] == attempt["graded_at"] && statement["attempt"] == attempt["id"], "{receipt}");
+    let folder = tempfile::tempdir()?;
+    let write = |name: &str, document: &Value| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, document.to_string())?;
+        Ok::<_, anyhow::Error>(path)
+    };
+    let adaptarm = |arguments: &[&std::ffi::OsStr]| {
+        let output = std::process::Command::new(adaptarm_tests::binary()?).args(arguments).output()?;
+        Ok::<_, anyhow::Error>((output.status.code(), String::from_utf8_lossy(&output.stdout).trim().to_owned()))
+    };
+    let (_, key) = adaptarm(&["receipt".as_ref(), "key".as_ref(), "--data".as_ref(), server.data.path().as_ref()])?;
+    let revealed = write("reveal.json", reveal)?;
+    let verify = |receipt: &std::path::Path| {
+        let words: [&std::ffi::OsStr; 7] = [
+            "receipt".as_ref(),
+            "verify".as_ref(),
+            receipt.as_ref(),
+            "--key".as_ref(),
+            key.as_ref(),
+            "--reveal".as_ref(),
+            revealed.as_ref(),
+        ];
+        adaptarm(&words)
+    };
+    let (code, told) = verify(&write("receipt.json", receipt)?)?;
+    ensure!(code == Some(0), "{code:?}: {told}");
+    let mut forged = receipt.clone();
+    forged["statement"]["gains"]["k_p"] = json!(399.0);
+    let (code, told) = verify(&write("forged.json", &forged)?)?;
+    ensure!(code == Some(2), "{code:?}: {told}");
     Ok(())
 }
 
@@ -292,6 +341,6 @@ pub fn teachers() -> Result<()> {
     redeem(link, "eva")?.expect_status(201)?;
     redeem(link, "iva")?.expect_status(401)?;
     let exercises = teacher.get("/exercises")?.expect(200)?.to_string();
-    ensure!(exercises.contains("NOTE-FOR-TEACHERS") && exercises.contains("SOLUTION-STIFF"));
+    ensure!(exercises.contains("NOTE-FOR-TEACHERS") && exercises.contains("solution-stiff"));
     Ok(())
 }

@@ -4,8 +4,9 @@ use adaptarm_tests::Launch;
 use adaptarm_tests::classroom::{Visitor, school, soft, stiff};
 use adaptarm_tests::postgres::Cluster;
 use anyhow::{Result, ensure};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::thread;
+use std::time::{Duration, Instant};
 
 /// Requests sent at once for attempts that one may have three of.
 const AT_ONCE: usize = 12;
@@ -67,31 +68,30 @@ pub fn given_back() -> Result<()> {
     let (class, code) = teacher.class("A")?;
     let assignment = teacher.give(&class, &json!({ "exercise": "hold", "attempts": 1 }))?;
     let student = Visitor::student(&server.url, &code, "Bea")?;
-    // On the same data, a server that dies of whatever grades this assignment.
     let exercises = folder.path().to_string_lossy().into_owned();
-    let label = format!("assignment {assignment}");
-    let poison = Launch::new()
-        .variable("ADAPTARM_CLASSROOM_EXERCISES", &exercises)
-        .variable("ADAPTARM_TEST_ABORT_ON_LABEL", &label);
-    server.restart_as(poison)?;
+    let launch = || Launch::new().variable("ADAPTARM_CLASSROOM_EXERCISES", &exercises);
+    // One that computes nothing takes the attempt; then comes one that dies of whatever grades this assignment.
+    server.restart_as(launch().arguments(["--threads", "0"]))?;
     let attempt = student.hand_in(&assignment, &soft())?;
-    for _ in 0..6 {
-        let ended = server.wait(std::time::Duration::from_secs(60));
-        if ended.is_err() {
-            break;
+    server.restart_as(launch().variable("ADAPTARM_TEST_ABORT_ON_LABEL", &format!("assignment {assignment}")))?;
+    let state = || student.get(&format!("/attempts/{attempt}")).and_then(|answer| answer.expect(200));
+    let deadline = Instant::now() + Duration::from_mins(2);
+    let mut deaths = 0;
+    while !state().is_ok_and(|attempt| attempt["state"] == "returned") {
+        ensure!(Instant::now() < deadline, "{deaths} deaths, and it is not given back");
+        if server.ended()?.is_some() {
+            deaths += 1;
+            server.restart()?;
         }
-        server.restart()?;
-        let state = student.get(&format!("/attempts/{attempt}"));
-        if state.is_ok_and(|answer| answer.json().is_ok_and(|attempt: Value| attempt["state"] == "returned")) {
-            break;
-        }
+        thread::sleep(Duration::from_millis(50));
     }
+    ensure!(deaths == 3, "{deaths} deaths");
     let given_back = student.graded(&attempt)?;
     ensure!(given_back["state"] == "returned" && given_back["score"].is_null(), "{given_back}");
     ensure!(given_back["reason"].as_str().is_some_and(|reason| reason.contains("does not count")), "{given_back}");
     let view = student.get(&format!("/assignments/{assignment}"))?.expect(200)?;
     ensure!(view["attempts_used"] == 0 && view["attempts_left"] == 1 && view["mark"].is_null(), "{view}");
-    server.restart_as(Launch::new().variable("ADAPTARM_CLASSROOM_EXERCISES", &exercises))?;
+    server.restart_as(launch())?;
     let again = student.graded(&student.hand_in(&assignment, &soft())?)?;
     ensure!(again["state"] == "graded" && again["number"] == 2, "{again}");
     Ok(())

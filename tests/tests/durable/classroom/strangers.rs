@@ -2,7 +2,7 @@
 //! identifiers, jobs, cursors, and the words and time of errors.
 
 use adaptarm_tests::Launch;
-use adaptarm_tests::classroom::{ROOT, Visitor, school, soft, stiff};
+use adaptarm_tests::classroom::{Visitor, school, soft, stiff};
 use adaptarm_tests::client::Client;
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
@@ -80,7 +80,7 @@ pub fn roles() -> Result<()> {
         teacher.send(method, path, &[], body.as_ref())?.expect_status(404).with_context(|| path.clone())?;
     }
     for student in [&carlos, &dora] {
-        for rest in ["", "/events", "/receipt"] {
+        for rest in ["", "/events", "/receipt", "/reveal"] {
             let [refused, none] = [&attempt, nowhere].map(|id| stripped(student.get(&format!("/attempts/{id}{rest}"))));
             ensure!(refused? == none?, "{rest}");
         }
@@ -147,6 +147,7 @@ pub fn hidden() -> Result<()> {
         format!("/assignments/{assignment}/attempts"),
         format!("/attempts/{attempt}"),
         format!("/attempts/{attempt}/receipt"),
+        format!("/attempts/{attempt}/reveal"),
         "/me/export".to_owned(),
     ];
     for path in paths {
@@ -162,7 +163,7 @@ pub fn hidden() -> Result<()> {
         ensure!(!told.contains(secret), "{secret} in {told}");
     }
     ensure!(
-        told.contains("EXPLANATION-OF-HOLD") && !told.contains("SOLUTION-STIFF") && !told.contains("NOTE-FOR"),
+        told.contains("EXPLANATION-OF-HOLD") && !told.contains("solution-stiff") && !told.contains("NOTE-FOR"),
         "{told}"
     );
     files(&client)?;
@@ -183,7 +184,7 @@ fn files(client: &Client) -> Result<()> {
 
 /// That there is an attempt, of someone else, is not told by the time that the refusal takes.
 fn times(student: &Visitor, own: &str) -> Result<()> {
-    let other = Visitor { cookie: None, ..student.clone() };
+    let other = student.clone().with_cookie(None);
     other.get(&format!("/attempts/{own}"))?.expect_status(401)?;
     let nowhere = "0197b0a0-0000-7000-8000-000000000000";
     let mut least = [f64::INFINITY; 2];

@@ -74,7 +74,7 @@ impl Setting {
         })?;
         let led = answer.header("location").to_owned();
         ensure!(answer.status == 303, "{answer}");
-        Ok(led.split_once("/teach.html#assignment=").with_context(|| led.clone())?.1.to_owned())
+        Ok(led.split_once("/teach.html#assignment/").with_context(|| led.clone())?.1.to_owned())
     }
 }
 

@@ -56,7 +56,7 @@ async fn count_steps(connection: &mut Connection, claim: &Claim, tick: Tick) -> 
 }
 
 /// Notes how far a shard is, if the claim still holds; whether it does.
-async fn fenced(
+pub(super) async fn fenced(
     connection: &mut Connection,
     claim: &Claim,
     tick: Tick,
@@ -110,7 +110,6 @@ pub(super) async fn deliver(
     pool: &Pool,
     claim: &Claim,
     result: &StoredResult,
-    counted: i64,
     computed: Duration,
 ) -> Result<Delivered, StoreError> {
     let stop = Delivered { order: Order::Stop, ended: None };
@@ -123,14 +122,15 @@ pub(super) async fn deliver(
          WHERE id = $1 AND state = 'running' RETURNING scenarios_done, scenarios, event_seq",
     )
     .bind(claim.job.to_string())
-    .bind(result.report.steps as i64 - counted)
+    .bind(result.report.steps as i64 - result.counted)
     .bind(computed.as_micros() as i64)
     .bind(result.bytes as i64)
     .fetch_optional(&mut *connection)
     .await?;
     let Some((scenarios_done, scenarios, seq)) = counts else { return Ok(stop) };
-    // From now on the shard's count is that of its next scenario.
-    let forward = Tick { steps_done: 0, steps_before: 0, computed, saved: true, turn_over: false };
+    // From now on the shard's count is that of the scenarios under way, or of the next one.
+    let forward =
+        Tick { steps_done: result.counted_of_others, steps_before: 0, computed, saved: true, turn_over: false };
     if !fenced(connection, claim, forward, None).await? {
         return Ok(stop);
     }
@@ -164,7 +164,7 @@ pub(super) async fn deliver(
     if scenarios_done == scenarios {
         tell(connection, claim.job, State::new(JobState::Succeeded), at).await?;
         delivered = Delivered { order: Order::Stop, ended: Some(JobState::Succeeded) };
-    } else if claim.scenarios.last().is_some_and(|(n, _)| *n == result.n) {
+    } else if result.last {
         sqlx::query("DELETE FROM shard WHERE job_id = $1 AND number = $2")
             .bind(claim.job.to_string())
             .bind(claim.shard)

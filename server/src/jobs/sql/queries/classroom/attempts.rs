@@ -102,11 +102,7 @@ pub(super) async fn attempt(pool: &Pool, id: Uuid) -> Result<Option<Attempt>, St
     row.map(Attempt::try_from).transpose()
 }
 
-pub(super) async fn attempts(
-    pool: &Pool,
-    assignment: Uuid,
-    student: Option<Uuid>,
-) -> Result<Vec<Attempt>, StoreError> {
+pub(super) async fn attempts(pool: &Pool, assignment: Uuid, student: Option<Uuid>) -> Result<Vec<Attempt>, StoreError> {
     let rows: Vec<AttemptRow> = sqlx::query_as(concat!(
         "SELECT ",
         attempt_columns!(),
@@ -154,11 +150,11 @@ pub(super) async fn ripe(pool: &Pool, limit: i64) -> Result<Vec<Ripe>, StoreErro
 pub(super) async fn finish(pool: &Pool, attempt: Uuid, outcome: &Outcome) -> Result<bool, StoreError> {
     let mut transaction = begin(pool).await?;
     let at = now(&mut transaction).await?;
-    let (state, reason, papers) = match outcome {
-        Outcome::Graded { feedback, grade, receipt } => {
-            (AttemptState::Graded, None, [Some(feedback), Some(grade), receipt.as_ref()])
+    let (state, reason, at, papers) = match outcome {
+        Outcome::Graded { feedback, grade, receipt, graded_at } => {
+            (AttemptState::Graded, None, graded_at.as_microsecond(), [feedback, grade, receipt].map(Some))
         }
-        Outcome::Returned(reason) => (AttemptState::Returned, Some(reason), [None; 3]),
+        Outcome::Returned(reason) => (AttemptState::Returned, Some(reason), at, [None; 3]),
     };
     let [feedback, grade, receipt] = papers;
     let done = sqlx::query(

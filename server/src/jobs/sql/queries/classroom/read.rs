@@ -21,7 +21,8 @@ pub(super) async fn classes(pool: &Pool, teacher: Uuid) -> Result<Vec<(Class, i6
     .bind(teacher.to_string())
     .fetch_all(pool)
     .await?;
-    let class = |row: &<Db as sqlx::Database>::Row| Ok((ClassRow::from_row(row)?.try_into()?, row.try_get("students")?));
+    let class =
+        |row: &<Db as sqlx::Database>::Row| Ok((ClassRow::from_row(row)?.try_into()?, row.try_get("students")?));
     rows.iter().map(class).collect()
 }
 

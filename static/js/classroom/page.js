@@ -1,0 +1,126 @@
+// What the pages of students and teachers share: the session, the head with name and way out, and which view is shown.
+//
+// A view has `node`, `start()` and `stop()`, and focuses its own heading. `data-state` of the document tells how the page
+// stands: loading, ready, failed; `data-view` which view it is.
+
+import { byId, element, fillTexts } from "../dom.js";
+import { jump } from "../jump.js";
+import { buildMasthead } from "../masthead.js";
+import { texts } from "../strings/classroom.js";
+import { strings } from "../strings/index.js";
+import { signOutButton } from "./account.js";
+import { client } from "./client.js";
+import { takeSecret } from "./entry.js";
+import { showError } from "./parts.js";
+
+const root = document.documentElement;
+
+export class ClassPage {
+  #role;
+  #enter;
+  #view;
+  #other;
+  #shown = null;
+  #secret = null;
+  #isFirst = true;
+  #place = byId("content");
+  #who = byId("who");
+
+  /** `enter` makes the view for nobody, `view` the one for a place in the address, `other` says what the other role is told. */
+  constructor({ role, title, description, enter, view, other }) {
+    this.#role = role;
+    this.#enter = enter;
+    this.#view = view;
+    this.#other = other;
+    buildMasthead("classroom", title, description);
+    fillTexts({ ...strings, ...texts });
+    document.addEventListener("click", (event) => jump(event));
+    addEventListener("hashchange", () => this.#moved());
+    addEventListener("online", () => this.#online());
+    addEventListener("offline", () => this.#online());
+  }
+
+  async start() {
+    this.#online();
+    this.#secret = takeSecret();
+    root.dataset.state = "loading";
+    try {
+      await client.load();
+    } catch (error) {
+      root.dataset.state = "failed";
+      const failure = element("div", { class: "failure" });
+      this.#place.replaceChildren(failure);
+      showError(failure, error, () => this.start());
+      return;
+    }
+    client.addEventListener("session", () => this.route());
+    this.route();
+  }
+
+  /** Shows what the session and the address ask for. */
+  route() {
+    this.#shown?.stop();
+    const { session } = client;
+    this.#head(session);
+    root.dataset.state = "loading";
+    if (session.role !== null && session.role !== this.#role && !this.#secret) {
+      this.#shown = null;
+      root.dataset.view = "other";
+      this.#place.replaceChildren(this.#otherRole());
+      root.dataset.state = "ready";
+      return;
+    }
+    const isEntry = session.role !== this.#role || this.#secret !== null;
+    const place = decodeURIComponent(location.hash.slice(1));
+    this.#shown = isEntry ? this.#enter(this, this.#secret) : this.#view(place, this);
+    root.dataset.view = isEntry ? "enter" : place.split("/")[0] || "home";
+    this.#place.replaceChildren(this.#shown.node);
+    scrollTo(0, 0);
+    this.#begin(this.#shown);
+  }
+
+  /** Starts a view. Whoever came from another one begins at its heading; a page that was just opened at its top. */
+  async #begin(view) {
+    const first = this.#isFirst;
+    this.#isFirst = false;
+    await view.start();
+    if (!first && view === this.#shown && document.activeElement === document.body) {
+      view.node.querySelector("h1")?.focus({ preventScroll: true });
+    }
+  }
+
+  /** The secret of the address has been used, or is not wanted. */
+  done() {
+    this.#secret = null;
+    this.route();
+  }
+
+  #moved() {
+    const secret = takeSecret();
+    this.#secret = secret ?? this.#secret;
+    this.route();
+  }
+
+  #head({ role, name, class: own }) {
+    const account = element("a", { href: "#account", id: "account-link" }, own ? `${name} · ${own.name}` : name);
+    this.#who.replaceChildren(...(role === this.#role ? [account] : []));
+  }
+
+  #otherRole() {
+    const failure = element("div", { class: "failure" });
+    const target = this.#role === "student" ? "teach.html" : "learn.html";
+    return element(
+      "div",
+      { class: "class-view" },
+      element("h1", { tabindex: "-1" }, texts.otherRole),
+      element("p", {}, this.#other()),
+      failure,
+      element("div", { class: "actions" }, element("a", { class: "button", href: target }, texts.toOwnPage), signOutButton(failure)),
+    );
+  }
+
+  /** The classroom is the server's; without it the page can only say so. */
+  #online() {
+    byId("offline-note").textContent = navigator.onLine === false ? texts.errors.offline : "";
+  }
+}
