@@ -43,6 +43,9 @@ pub trait LtiStore: Send + Sync + 'static {
     /// A student's platform, and what it calls them, if they came by one.
     async fn known_as(&self, student: Uuid) -> Result<Option<(String, String)>, StoreError>;
 
+    /// Whether an account has the class of a course.
+    async fn is_course_account(&self, person: Uuid) -> Result<bool, StoreError>;
+
     /// The course of a class.
     async fn context_of(&self, class: Uuid) -> Result<Option<Context>, StoreError>;
 

@@ -10,11 +10,14 @@ use super::refusal::LtiError;
 use super::store::LtiStore;
 use crate::classroom::{Desk, secrets};
 use crate::config::Config;
+use crate::error::Problem;
 use anyhow::Context;
+use axum::http::StatusCode;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::OnceCell;
 use tokio::task::spawn_blocking;
+use uuid::Uuid;
 
 /// Names of the secrets among the classroom's.
 const KEY: &str = "lti key";
@@ -85,6 +88,16 @@ impl Tool {
             Ok::<_, LtiError>(self.desk.store.secret(STATES, &fresh).await?)
         };
         Ok(self.secret.get_or_try_init(make).await?)
+    }
+
+    /// Refuses to a course's account whatever would let people in by another way than the platform: it is all its teachers', and
+    /// who does not teach the course any more must not have kept a key.
+    pub async fn refuse_course_account(&self, person: Uuid) -> Result<(), Problem> {
+        if !self.store.is_course_account(person).await.map_err(LtiError::from)? {
+            return Ok(());
+        }
+        let detail = "this account is all the course's teachers', who come in by the learning platform alone";
+        Err(Problem::new(StatusCode::FORBIDDEN, "/problems/course-account", "Not with a course's account", detail))
     }
 
     /// An access token of this scope.

@@ -44,8 +44,9 @@ export class AccountView extends View {
       element("h1", { tabindex: "-1" }, own.title),
       failure,
       card(own.you, known, element("div", { class: "actions" }, signOutButton(failure), everywhere)),
-      passwordCard(session, this.#changed),
-      card(own.newLinkTitle, element("p", {}, own.newLinkHelp), newLinkButton(attempt, link, session), link),
+      ...(session.course_account
+        ? [element("p", {}, own.ofCourse)]
+        : [passwordCard(session, this.#changed), card(own.newLinkTitle, element("p", {}, own.newLinkHelp), newLinkButton(attempt, link, session), link)]),
       session.role === "student" ? dataCard(attempt, failure) : "",
     );
   }

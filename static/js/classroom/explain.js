@@ -22,6 +22,10 @@ export function explain(error) {
       return errors.signIn;
     case "role":
       return errors.role;
+    case "course-account":
+      return errors.courseAccount;
+    case "lti-platform":
+      return errors.platform(error.message);
     case "csrf":
       return errors.csrf;
     case "taken":

@@ -15,6 +15,7 @@ import { leaderboardTable } from "../learn/leaderboard.js";
 import { localized, texts } from "../strings/classroom.js";
 import { conditionsCard } from "./assign.js";
 import { histogram } from "./histogram.js";
+import { passbackCard } from "./platform.js";
 
 const own = texts.board;
 const REFRESH_MS = 3000;
@@ -25,6 +26,7 @@ export class BoardView extends View {
   #graded = null;
   #live = element("div", { class: "board-live" });
   #places = element("div", {});
+  #passback = element("div", {});
   #stale = element("p", { class: "trouble", role: "status" });
 
   constructor(id) {
@@ -50,6 +52,7 @@ export class BoardView extends View {
       this.#stale,
       this.#live,
       this.#places,
+      this.#passback,
       conditionsCard(assignment, (body) => this.act(() => client.ask("PATCH", `assignments/${this.#id}`, body))),
       element("div", { class: "actions" }, remove),
     );
@@ -114,6 +117,15 @@ export class BoardView extends View {
     }
     if (assignment.leaderboard) {
       this.#leaderboard();
+    }
+    this.#showPassback();
+  }
+
+  async #showPassback() {
+    try {
+      this.#passback.replaceChildren(passbackCard(await client.get(`assignments/${this.#id}/lti`)));
+    } catch {
+      // As with the leaderboard.
     }
   }
 

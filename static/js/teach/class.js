@@ -10,6 +10,7 @@ import { download, fileName } from "../download.js";
 import { confirmButton } from "../jobs/confirm.js";
 import { localized, texts } from "../strings/classroom.js";
 import { assignmentCard } from "./assign.js";
+import { courseCard } from "./platform.js";
 import { projector } from "./projector.js";
 import { studentTable } from "./students.js";
 
@@ -25,16 +26,21 @@ export class ClassView extends View {
   }
 
   async load() {
-    const [own_class, { exercises }] = await Promise.all([client.get(`classes/${this.#id}`), client.get("exercises")]);
-    return { group: own_class, exercises };
+    const [group, { exercises }, course] = await Promise.all([
+      client.get(`classes/${this.#id}`),
+      client.get("exercises"),
+      client.get(`classes/${this.#id}/lti`),
+    ]);
+    return { group, exercises, course };
   }
 
-  draw({ group, exercises }) {
+  draw({ group, exercises, course }) {
     document.title = `${group.name} · adaptarm`;
     this.node.replaceChildren(
       element("p", {}, element("a", { class: "back", href: "#" }, `← ${texts.classes.title}`)),
       element("h1", { tabindex: "-1" }, group.name),
       this.failure,
+      courseCard(this.#id, course, () => this.start()),
       this.#joining(group),
       this.#assignments(group),
       assignmentCard(exercises, (body) => this.#assign(body)),

@@ -39,7 +39,7 @@ export class ClassesView extends View {
       this.failure,
       items.length > 0 ? element("ul", { class: "assignment-list" }, items) : element("p", { class: "empty" }, own.empty),
       card(own.newTitle, add),
-      this.#invitation(),
+      client.session.course_account ? "" : this.#invitation(),
     );
   }
 

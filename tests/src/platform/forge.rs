@@ -30,6 +30,8 @@ pub enum Signed<'a> {
     By(&'a Key),
     /// With the right name of the wrong key.
     Named(&'a Key, &'a str),
+    /// With the right name of the wrong key, which the token brings with it.
+    Bringing(&'a Key, &'a str),
     /// Not at all, and saying so.
     Nothing(&'a str),
     /// By HMAC, with what everyone knows as its key: the public key's text.
@@ -65,14 +67,18 @@ impl Signed<'_> {
     pub fn token(self, claims: &Value) -> Result<String> {
         let (algorithm, kid) = match self {
             Self::By(key) => ("RS256", key.kid.as_str()),
-            Self::Named(_, kid) => ("RS256", kid),
+            Self::Named(_, kid) | Self::Bringing(_, kid) => ("RS256", kid),
             Self::Nothing(kid) => ("none", kid),
             Self::Symmetrically(key) => ("HS256", key.kid.as_str()),
         };
         let part = |value: &Value| URL_SAFE_NO_PAD.encode(value.to_string());
-        let message = format!("{}.{}", part(&json!({ "alg": algorithm, "typ": "JWT", "kid": kid })), part(claims));
+        let mut header = json!({ "alg": algorithm, "typ": "JWT", "kid": kid });
+        if let Self::Bringing(key, _) = self {
+            header["jwk"] = key.jwk();
+        }
+        let message = format!("{}.{}", part(&header), part(claims));
         let signature = match self {
-            Self::By(key) | Self::Named(key, _) => key.sign(&message)?,
+            Self::By(key) | Self::Named(key, _) | Self::Bringing(key, _) => key.sign(&message)?,
             Self::Nothing(_) => Vec::new(),
             Self::Symmetrically(key) => {
                 let public = key.jwk()["n"].as_str().context("no modulus")?.to_owned();

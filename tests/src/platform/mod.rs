@@ -39,6 +39,8 @@ struct Shared {
     gradebook: Mutex<Gradebook>,
     /// Whether it answers 503 to everything but logins.
     down: AtomicBool,
+    /// Whether it takes scores without ever saying so.
+    mute: AtomicBool,
 }
 
 /// A running platform; it ends with this value.
@@ -92,6 +94,7 @@ impl Platform {
             members: Mutex::default(),
             gradebook: Mutex::default(),
             down: AtomicBool::new(false),
+            mute: AtomicBool::new(false),
         });
         let app = services::router(shared.clone());
         runtime.spawn(async move { axum::serve(listener, app).await });
@@ -125,6 +128,11 @@ impl Platform {
     /// Stops answering for its services, or begins again.
     pub fn set_down(&self, down: bool) {
         self.shared.down.store(down, Ordering::SeqCst);
+    }
+
+    /// Takes scores without ever saying so, or answers again.
+    pub fn set_mute(&self, mute: bool) {
+        self.shared.mute.store(mute, Ordering::SeqCst);
     }
 
     /// Scores that arrived, in order; each has its column.

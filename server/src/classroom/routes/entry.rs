@@ -26,7 +26,11 @@ pub const STUDENTS: i64 = 1000;
 /// Whose session it is, if it is one.
 pub(super) async fn show(State(state): State<AppState>, signed: Option<Signed>) -> Result<Response, Problem> {
     let Some(signed) = signed else { return Ok(Json(json!({ "role": null })).into_response()) };
-    Ok(Json(views::session(&signed, class_of(&state, &signed.person).await?.as_ref(), None)).into_response())
+    let mut view = views::session(&signed, class_of(&state, &signed.person).await?.as_ref(), None);
+    if state.lti.store.is_course_account(signed.person.id).await.map_err(database)? {
+        view["course_account"] = json!(true);
+    }
+    Ok(Json(view).into_response())
 }
 
 async fn class_of(state: &AppState, person: &Person) -> Result<Option<super::super::model::Class>, Problem> {
@@ -202,7 +206,12 @@ pub fn new_person(
 }
 
 /// A link for one more teacher.
-pub(super) async fn invite(State(state): State<AppState>, _: Teacher, headers: HeaderMap) -> Result<Response, Problem> {
+pub(super) async fn invite(
+    State(state): State<AppState>,
+    Teacher(teacher): Teacher,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    state.lti.refuse_course_account(teacher.id).await?;
     let invited = state.desk.invite(&state.desk.base(&headers), false).await;
     let (link, expires_at) = invited.map_err(crate::routes::internal)?;
     Ok((StatusCode::CREATED, Json(json!({ "link": link, "expires_at": expires_at }))).into_response())

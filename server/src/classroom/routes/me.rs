@@ -30,6 +30,7 @@ pub(super) async fn set_password(
     parts: Parts,
     JsonBytes(bytes): JsonBytes,
 ) -> Result<StatusCode, Problem> {
+    state.lti.refuse_course_account(signed.person.id).await?;
     let NewPassword { password, current } = read(&bytes)?;
     passwords::check("/password", &password)?;
     check_current(&state, &signed, &parts, current).await?;
@@ -82,6 +83,7 @@ pub(super) async fn renew_key(
     signed: Signed,
     headers: HeaderMap,
 ) -> Result<Json<Value>, Problem> {
+    state.lti.refuse_course_account(signed.person.id).await?;
     let key = secrets::fresh().map_err(crate::routes::internal)?;
     let store = &state.desk.store;
     store.set_key(signed.person.id, &secrets::hash(&key), &signed.hash()).await.map_err(database)?;

@@ -41,6 +41,7 @@ pub fn api() -> Router<AppState> {
         .route("/lti", get(setup::tool))
         .route("/lti/platforms", get(teacher::platforms).post(teacher::register))
         .route("/lti/platforms/{id}", delete(teacher::remove))
+        .route("/classes/{class}/lti", get(teacher::course))
         .route("/classes/{class}/lti/members", post(teacher::fetch_members))
         .route("/assignments/{id}/lti", get(teacher::standing))
 }

@@ -34,6 +34,7 @@ pub(super) async fn register(
     Teacher(teacher): Teacher,
     JsonBytes(bytes): JsonBytes,
 ) -> Result<Response, Problem> {
+    state.lti.refuse_course_account(teacher.id).await?;
     let new: NewPlatform = document::parse(&bytes)?;
     let platform = new.check(teacher.id, &state.lti.caller)?;
     let store = &state.lti.store;
@@ -58,6 +59,20 @@ pub(super) async fn remove(
     let removed = state.lti.store.remove_platform(id, Some(teacher.id)).await.map_err(LtiError::from)?;
     state.lti.platform_keys.forget(id).await;
     if removed { Ok(StatusCode::NO_CONTENT) } else { Err(problems::nothing()) }
+}
+
+/// Which platform's course a class is, and whether it tells its members.
+pub(super) async fn course(
+    State(state): State<AppState>,
+    Teacher(teacher): Teacher,
+    Name(class): Name,
+) -> Result<Json<Value>, Problem> {
+    let class = own_class(&state, &teacher, &class).await?;
+    let store = &state.lti.store;
+    let context = store.context_of(class.id).await.map_err(LtiError::from)?;
+    let Some(context) = context else { return Ok(Json(json!({ "platform": null, "members": false }))) };
+    let platform = store.platform(context.platform).await.map_err(LtiError::from)?.ok_or_else(problems::nothing)?;
+    Ok(Json(json!({ "platform": platform.issuer, "members": context.members_url.is_some() })))
 }
 
 /// Makes students of those who attend the class's course.

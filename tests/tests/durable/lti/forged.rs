@@ -48,8 +48,9 @@ fn forgeries() -> Vec<Forgery> {
 
 /// Forgeries of every kind.
 pub fn forged_launches() -> Result<()> {
-    let setting = Setting::new()?;
-    let (platform, eve) = (&setting.platform, User::new("eve", "Instructor"));
+    let mut setting = Setting::new()?;
+    let eve = User::new("eve", "Instructor");
+    let platform = &setting.platform;
     for (what, change, expected) in forgeries() {
         let mut browser = setting.browser();
         let answer = browser.launch(platform, |nonce| {
@@ -70,11 +71,23 @@ pub fn forged_launches() -> Result<()> {
         ensure!(!browser.cookies.contains_key("adaptarm"), "a launch {what} has a session");
     }
     signatures(&setting, &eve)?;
-    replays(&setting, &eve)?;
-    // Nobody came in: the only teacher is the one who registered the platform.
-    let classes = setting.teacher.get("/classes")?.expect(200)?;
-    ensure!(classes["classes"] == json!([]), "{classes}");
+    nobody(&setting, &eve)?;
+    replays(&mut setting, &eve)?;
     logins(&setting)
+}
+
+/// Nobody came in, and nothing was made on the way: who then comes rightly is the first, in a class without students.
+fn nobody(setting: &Setting, eve: &User) -> Result<()> {
+    let before = jiff::Timestamp::now().as_second();
+    let teacher = setting.enter(eve, "link", None)?;
+    let classes = teacher.get("/classes")?.expect(200)?;
+    let only = &classes["classes"][0];
+    let made = only["created_at"].as_str().and_then(|at| at.parse::<jiff::Timestamp>().ok()).context("no class")?;
+    ensure!(made.as_second() >= before, "the class was made by a forged launch: {classes}");
+    ensure!(only["student_count"] == 0 && classes["classes"][1].is_null(), "{classes}");
+    let own = setting.teacher.get("/classes")?.expect(200)?;
+    ensure!(own["classes"] == json!([]), "{own}");
+    Ok(())
 }
 
 fn signatures(setting: &Setting, eve: &User) -> Result<()> {
@@ -82,6 +95,7 @@ fn signatures(setting: &Setting, eve: &User) -> Result<()> {
     let other = Key::new("key-2")?;
     for (what, how, expected) in [
         ("signed with another key under the right name", Signed::Named(&other, "key-1"), "signature"),
+        ("signed with another key that it brings along", Signed::Bringing(&other, "key-1"), "signature"),
         ("signed with a key that is not published", Signed::By(&other), "key"),
         ("not signed", Signed::Nothing("key-1"), "token"),
         ("signed symmetrically with the public key", Signed::Symmetrically(platform.key()), "algorithm"),
@@ -91,6 +105,7 @@ fn signatures(setting: &Setting, eve: &User) -> Result<()> {
         let token = how.token(&platform.claims(eve, "link", &begun.nonce))?;
         let given = reason(&browser.bring(&begun.state, &token, &[])?).context(what)?;
         ensure!(given == expected, "a launch {what}: {given} instead of {expected}");
+        ensure!(!browser.cookies.contains_key("adaptarm"), "a launch {what} has a session");
     }
     // Good claims behind a good signature of other claims.
     let mut browser = setting.browser();
@@ -108,13 +123,12 @@ fn signatures(setting: &Setting, eve: &User) -> Result<()> {
 }
 
 /// What was good once, or for someone else.
-fn replays(setting: &Setting, eve: &User) -> Result<()> {
-    let platform = &setting.platform;
+fn replays(setting: &mut Setting, eve: &User) -> Result<()> {
     // A student's good launch, which fails later: the link leads to nothing. Its nonce is used up all the same.
     let sam = User::new("sam", "Learner").of("elsewhere");
     let mut browser = setting.browser();
-    let begun = browser.login(platform)?;
-    let token = Signed::By(platform.key()).token(&platform.claims(&sam, "link", &begun.nonce))?;
+    let begun = browser.login(&setting.platform)?;
+    let token = Signed::By(setting.platform.key()).token(&setting.platform.claims(&sam, "link", &begun.nonce))?;
     let expect = |answer: adaptarm_tests::client::Answer, expected: &str| -> Result<()> {
         let given = reason(&answer)?;
         ensure!(given == expected, "{given} instead of {expected}");
@@ -122,6 +136,9 @@ fn replays(setting: &Setting, eve: &User) -> Result<()> {
     };
     expect(browser.bring(&begun.state, &token, &[])?, "link")?;
     expect(browser.bring(&begun.state, &token, &[])?, "replay").context("the same once more")?;
+    setting.server.restart()?;
+    expect(browser.bring(&begun.state, &token, &[])?, "replay").context("the same after the server was killed")?;
+    let platform = &setting.platform;
     let fresh = browser.login(platform)?;
     expect(browser.bring(&fresh.state, &token, &[])?, "nonce").context("an old token with a new state")?;
     let again = Signed::By(platform.key()).token(&platform.claims(&sam, "link", &begun.nonce))?;

@@ -48,6 +48,30 @@ pub fn crashes() -> Result<()> {
     ensure!(given == expected, "{given:?} instead of {expected:?}");
     ensure!(arrived.len() == expected.len(), "some arrived twice: {arrived:?}");
     ensure!(setting.platform.columns().len() == 1, "{:?}", setting.platform.columns());
+    unheard(&mut setting, &tina, &assignment)
+}
+
+/// The server dies between the platform's taking a score and its own note of it: the same score goes out again, by its time known
+/// to be the same, and counts as delivered.
+fn unheard(setting: &mut Setting, tina: &User, assignment: &str) -> Result<()> {
+    let before = setting.platform.scores().len();
+    setting.platform.set_mute(true);
+    let student = setting.enter(&User::new("late", "Learner"), "link-1", None)?;
+    let attempt = student.graded(&student.hand_in(assignment, &stiff())?)?;
+    scores(&setting.platform, before + 1)?;
+    setting.server.restart()?;
+    setting.platform.set_mute(false);
+    let arrived = scores(&setting.platform, before + 2)?;
+    let [first, second] = &arrived[before..] else { anyhow::bail!("{arrived:?}") };
+    ensure!(first == second && first.score["scoreGiven"] == attempt["points"], "{first:?}, {second:?}");
+    let teacher = setting.enter(tina, "link-1", None)?;
+    let delivered = || -> Result<Option<Value>> {
+        let standing = teacher.get(&format!("/assignments/{assignment}/lti"))?.expect(200)?;
+        Ok((standing["waiting"] == 0 && standing["sent"] == 4).then_some(standing))
+    };
+    surely(PATIENCE, delivered).context("waiting for the score to count as delivered")?;
+    std::thread::sleep(QUIET);
+    ensure!(setting.platform.scores().len() == before + 2, "{:?}", setting.platform.scores());
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Setting, reason};
 use adaptarm_tests::classroom::stiff;
-use adaptarm_tests::client::surely;
+use adaptarm_tests::client::{Answer, surely};
 use adaptarm_tests::platform::{Platform, Posted, Signed, User, hidden};
 use adaptarm_tests::postgres::Cluster;
 use anyhow::{Context, Result, ensure};
@@ -32,6 +32,7 @@ fn whole(setting: &Setting) -> Result<()> {
     let assignment = chooses(setting)?;
     grades(setting, &assignment)?;
     members(setting)?;
+    shared_account(setting)?;
     in_a_frame(setting, &assignment)?;
     separate(setting, &assignment)
 }
@@ -140,6 +141,25 @@ fn members(setting: &Setting) -> Result<()> {
     let refused = una.post(&path, &json!({}))?;
     ensure!(refused.status == 403, "a student fetches the list: {refused}");
     ensure!(setting.teacher.post(&path, &json!({}))?.status == 404, "another teacher fetches the list");
+    Ok(())
+}
+
+/// A course's account is all its teachers': none of them can keep a key to it, or make accounts that outlive their role.
+fn shared_account(setting: &Setting) -> Result<()> {
+    let teacher = setting.enter(&User::new("tina", "Instructor"), "link-1", None)?;
+    ensure!(teacher.session["course_account"] == true, "{}", teacher.session);
+    let refused = |answer: Answer| -> Result<()> {
+        let problem = answer.expect(403)?;
+        ensure!(problem["type"] == "/problems/course-account", "{problem}");
+        Ok(())
+    };
+    refused(teacher.put("/me/password", &json!({ "password": "correct horse battery" }))?)?;
+    refused(teacher.post("/me/key", &json!({}))?)?;
+    refused(teacher.post("/invitations", &json!({}))?)?;
+    refused(teacher.post("/lti/platforms", &setting.platform.registration())?)?;
+    let class = teacher.get("/classes")?.expect(200)?["classes"][0]["id"].clone();
+    let course = teacher.get(&format!("/classes/{}/lti", class.as_str().context("no class")?))?.expect(200)?;
+    ensure!(course == json!({ "platform": setting.platform.url(), "members": true }), "{course}");
     Ok(())
 }
 

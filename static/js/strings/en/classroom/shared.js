@@ -32,6 +32,8 @@ export const shared = {
     session: "Your session has ended. Sign in again; what you have set here stays.",
     signIn: "This does not let anyone in: it is mistyped, used up, closed or too old.",
     role: "This is for the other role.",
+    courseAccount: "This account is all the course's teachers', who come in by the learning platform alone.",
+    platform: (why) => `The learning platform does not answer as it should: ${why}`,
     csrf: "The page is out of date. Reload it and try again.",
     taken: "This login is taken. Choose another.",
     closed: "This assignment takes no attempts at the moment.",
@@ -47,6 +49,7 @@ export const shared = {
   account: {
     title: "Your account",
     you: "You",
+    ofCourse: "This account is all the course's teachers'. They come in by the links in the learning platform; it has no password and no personal link.",
     signOut: "Sign out",
     signOutEverywhere: "Sign out everywhere",
     passwordTitle: "Password",

@@ -87,6 +87,20 @@ export const teach = {
     data: "Details",
   },
 
+  platform: {
+    course: "Learning platform",
+    courseOf: (platform) => `This class is a course of ${platform}. Its people come in by the links there, and marks go back to its gradebook.`,
+    fetch: "Take over the list of members",
+    fetched: (listed, added, out) => `${listed} students are listed, ${added} are new${out > 0 ? `; for ${out} there was no room` : ""}.`,
+    noMembers: "The platform does not tell this tool who attends the course; students appear when they follow a link.",
+    grades: "Marks in the learning platform",
+    sent: "Delivered",
+    waiting: "On their way",
+    columns: "Gradebook",
+    columnsMissing: (count) => (count === 1 ? "one link has no column yet" : `${count} links have no column yet`),
+    trouble: (why) => `The platform did not take them; it is tried again. ${why}`,
+  },
+
   projector: {
     open: "Show large",
     title: "Code for joining",

@@ -32,6 +32,8 @@ export const shared = {
     session: "La sesión ha terminado. Entre de nuevo; lo que ha ajustado aquí se conserva.",
     signIn: "Esto no deja entrar a nadie: está mal escrito, usado, cerrado o es demasiado antiguo.",
     role: "Esto es para el otro papel.",
+    courseAccount: "Esta cuenta es de todos los docentes del curso, que solo entran por la plataforma de aprendizaje.",
+    platform: (why) => `La plataforma de aprendizaje no responde como debe: ${why}`,
     csrf: "La página está anticuada. Recárguela e inténtelo otra vez.",
     taken: "Ese usuario ya existe. Elija otro.",
     closed: "Esta tarea no admite intentos en este momento.",
@@ -47,6 +49,7 @@ export const shared = {
   account: {
     title: "Su cuenta",
     you: "Usted",
+    ofCourse: "Esta cuenta es de todos los docentes del curso. Entran por los enlaces de la plataforma de aprendizaje; no tiene contraseña ni enlace personal.",
     signOut: "Salir",
     signOutEverywhere: "Salir en todas partes",
     passwordTitle: "Contraseña",

@@ -87,6 +87,20 @@ export const teach = {
     data: "Detalles",
   },
 
+  platform: {
+    course: "Plataforma de aprendizaje",
+    courseOf: (platform) => `Esta clase es un curso de ${platform}. Su gente entra por los enlaces de allí, y las notas vuelven a su libro de calificaciones.`,
+    fetch: "Tomar la lista de miembros",
+    fetched: (listed, added, out) => `Hay ${listed} estudiantes en la lista, ${added} nuevos${out > 0 ? `; para ${out} no hubo lugar` : ""}.`,
+    noMembers: "La plataforma no dice a esta herramienta quién asiste al curso; los estudiantes aparecen cuando siguen un enlace.",
+    grades: "Notas en la plataforma de aprendizaje",
+    sent: "Entregadas",
+    waiting: "En camino",
+    columns: "Libro de calificaciones",
+    columnsMissing: (count) => (count === 1 ? "un enlace aún no tiene columna" : `${count} enlaces aún no tienen columna`),
+    trouble: (why) => `La plataforma no las aceptó; se intentará de nuevo. ${why}`,
+  },
+
   projector: {
     open: "Mostrar grande",
     title: "Código para unirse",

@@ -129,6 +129,15 @@ pub(super) async fn known_as(pool: &Pool, student: Uuid) -> Result<Option<(Strin
     Ok(known.bind(student.to_string()).fetch_optional(pool).await?)
 }
 
+pub(super) async fn is_course_account(pool: &Pool, person: Uuid) -> Result<bool, StoreError> {
+    let courses: i64 =
+        sqlx::query_scalar("SELECT COUNT(*) FROM lti_context c JOIN class o ON o.id = c.class_id WHERE o.teacher_id = $1")
+            .bind(person.to_string())
+            .fetch_one(pool)
+            .await?;
+    Ok(courses > 0)
+}
+
 pub(super) async fn context_of(pool: &Pool, class: Uuid) -> Result<Option<Context>, StoreError> {
     let query = sqlx::query_as("SELECT * FROM lti_context WHERE class_id = $1").bind(class.to_string());
     let row: Option<ContextRow> = query.fetch_optional(pool).await?;

@@ -57,6 +57,10 @@ impl LtiStore for SqlStore {
         arrive::known_as(&self.read, student).await
     }
 
+    async fn is_course_account(&self, person: Uuid) -> Result<bool, StoreError> {
+        arrive::is_course_account(&self.read, person).await
+    }
+
     async fn context_of(&self, class: Uuid) -> Result<Option<Context>, StoreError> {
         arrive::context_of(&self.read, class).await
     }
