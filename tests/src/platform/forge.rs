@@ -6,7 +6,7 @@ use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use ring::rand::SystemRandom;
 use ring::rsa::PublicKeyComponents;
 use ring::signature::{RSA_PKCS1_2048_8192_SHA256, RSA_PKCS1_SHA256, RsaKeyPair, RsaPublicKeyComponents};
-use ring::{hmac, rsa};
+use ring::hmac;
 use rsa_keys::pkcs1::EncodeRsaPrivateKey;
 use rsa_keys::rand_core::OsRng;
 use serde_json::{Value, json};
@@ -49,7 +49,7 @@ impl Key {
 
     /// Its public half.
     pub fn jwk(&self) -> Value {
-        let rsa::PublicKeyComponents::<Vec<u8>> { n, e } = PublicKeyComponents::from(self.pair.public());
+        let PublicKeyComponents::<Vec<u8>> { n, e } = PublicKeyComponents::from(self.pair.public());
         let [n, e] = [n, e].map(|number| URL_SAFE_NO_PAD.encode(number));
         json!({ "kty": "RSA", "alg": "RS256", "use": "sig", "kid": self.kid, "n": n, "e": e })
     }

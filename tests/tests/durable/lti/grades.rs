@@ -1,16 +1,13 @@
 //! Grades on their way while the platform does not answer and the server is killed: each arrives, once, with its value.
 
-use super::Setting;
+use super::{Setting, standing};
 use super::lessons::scores;
 use adaptarm_tests::classroom::{soft, stiff};
-use adaptarm_tests::client::surely;
 use adaptarm_tests::platform::User;
-use anyhow::{Context, Result, ensure};
-use serde_json::{Value, json};
+use anyhow::{Result, ensure};
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::time::Duration;
-
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Longer than a score that is sent twice would take to arrive.
 const QUIET: Duration = Duration::from_secs(3);
@@ -65,11 +62,7 @@ fn unheard(setting: &mut Setting, tina: &User, assignment: &str) -> Result<()> {
     let [first, second] = &arrived[before..] else { anyhow::bail!("{arrived:?}") };
     ensure!(first == second && first.score["scoreGiven"] == attempt["points"], "{first:?}, {second:?}");
     let teacher = setting.enter(tina, "link-1", None)?;
-    let delivered = || -> Result<Option<Value>> {
-        let standing = teacher.get(&format!("/assignments/{assignment}/lti"))?.expect(200)?;
-        Ok((standing["waiting"] == 0 && standing["sent"] == 4).then_some(standing))
-    };
-    surely(PATIENCE, delivered).context("waiting for the score to count as delivered")?;
+    standing(&teacher, assignment, |standing| standing["waiting"] == 0 && standing["sent"] == 4)?;
     std::thread::sleep(QUIET);
     ensure!(setting.platform.scores().len() == before + 2, "{:?}", setting.platform.scores());
     Ok(())
@@ -78,11 +71,7 @@ fn unheard(setting: &mut Setting, tina: &User, assignment: &str) -> Result<()> {
 /// The teacher sees that grades wait, and why.
 fn waits(setting: &Setting, tina: &User, assignment: &str) -> Result<()> {
     let teacher = setting.enter(tina, "link-1", None)?;
-    let look = || -> Result<Option<Value>> {
-        let standing = teacher.get(&format!("/assignments/{assignment}/lti"))?.expect(200)?;
-        Ok((standing["waiting"] == 3 && standing["error"].is_string()).then_some(standing))
-    };
-    let standing = surely(PATIENCE, look).context("waiting for scores to wait")?;
+    let standing = standing(&teacher, assignment, |standing| standing["waiting"] == 3 && standing["error"].is_string())?;
     ensure!(standing["sent"] == 0 && standing["error"].as_str().is_some_and(|why| why.contains("503")), "{standing}");
     Ok(())
 }

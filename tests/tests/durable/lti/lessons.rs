@@ -1,15 +1,12 @@
 //! A course from the platform's side: its teacher chooses an exercise, its students come and solve it, their grades go back.
 
-use super::{Setting, reason};
+use super::{PATIENCE, Setting, reason, standing};
 use adaptarm_tests::classroom::stiff;
 use adaptarm_tests::client::{Answer, surely};
 use adaptarm_tests::platform::{Platform, Posted, Signed, User, hidden};
 use adaptarm_tests::postgres::Cluster;
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
-use std::time::Duration;
-
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// So many scores, once they have arrived.
 pub fn scores(platform: &Platform, count: usize) -> Result<Vec<Posted>> {
@@ -101,12 +98,8 @@ fn grades(setting: &Setting, assignment: &str) -> Result<()> {
         columns.len() == 1 && columns[0]["resourceId"] == assignment && columns[0]["label"] == "Hold it",
         "{columns:?}"
     );
-    let standing = || {
-        let standing = teacher.get(&format!("/assignments/{assignment}/lti"))?.expect(200)?;
-        let wanted = json!({ "links": 1, "columns": 1, "sent": 1, "waiting": 0, "error": null });
-        Ok((standing == wanted).then_some(()))
-    };
-    surely(PATIENCE, standing).context("the standing")
+    let wanted = json!({ "links": 1, "columns": 1, "sent": 1, "waiting": 0, "error": null });
+    standing(&teacher, assignment, |standing| *standing == wanted).map(|_| ())
 }
 
 /// The platform's list makes students of those who attend.

@@ -13,7 +13,11 @@ use adaptarm_tests::client::Answer;
 use adaptarm_tests::platform::{Browser, CLAIM, Platform, User};
 use adaptarm_tests::{Launch, Server};
 use anyhow::{Context, Result, ensure};
-use serde_json::json;
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+/// Longer than anything takes on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A server that a teacher registered a platform with.
 struct Setting {
@@ -75,6 +79,19 @@ impl Setting {
         let led = answer.header("location").to_owned();
         ensure!(answer.status == 303, "{answer}");
         Ok(led.split_once("/teach.html#assignment/").with_context(|| led.clone())?.1.to_owned())
+    }
+}
+
+/// How the passing back of an assignment's grades stands, once it is as it should be. Asks as seldom as a page would.
+fn standing(teacher: &Visitor, assignment: &str, wanted: impl Fn(&Value) -> bool) -> Result<Value> {
+    let end = Instant::now() + PATIENCE;
+    loop {
+        let standing = teacher.get(&format!("/assignments/{assignment}/lti"))?.expect(200)?;
+        if wanted(&standing) {
+            return Ok(standing);
+        }
+        ensure!(Instant::now() < end, "grades are passed back so far: {standing}");
+        std::thread::sleep(Duration::from_millis(500));
     }
 }
 

@@ -105,10 +105,12 @@ async fn claim_of(
     if row.try_get::<String, _>("state")? == JobState::Queued.id() {
         tell(connection, id, State::new(JobState::Running), at).await?;
     }
-    let task = if row.try_get::<String, _>("kind")? == JobKind::Study.id() {
-        Task::Scenarios(scenarios(connection, &job, &shard).await?)
-    } else {
+    // Studies and the attempts of a classroom are lists of scenarios.
+    let kind = JobKind::from_id(row.try_get("kind")?);
+    let task = if kind.is_some_and(JobKind::is_experiment) {
         Task::Part(experiment::part(connection, &job, &shard).await?)
+    } else {
+        Task::Scenarios(scenarios(connection, &job, &shard).await?)
     };
     Ok(Some(Claim {
         job: id,
