@@ -95,12 +95,11 @@ impl Caller {
     fn request(&self, method: Method, url: &str, token: Option<&str>) -> Result<RequestBuilder, LtiError> {
         let url =
             self.check(url).map_err(|problem| LtiError::Platform(format!("an address of the platform {problem}")))?;
-        let client = match self.client.get() {
-            Some(client) => client,
-            None => {
-                let made = guarded_client(&self.policy, Timing::default()).map_err(|error| failed(&error))?;
-                self.client.get_or_init(|| made)
-            }
+        let client = if let Some(client) = self.client.get() {
+            client
+        } else {
+            let made = guarded_client(&self.policy, Timing::default()).map_err(|error| failed(&error))?;
+            self.client.get_or_init(|| made)
         };
         let request = client.request(method, url);
         Ok(match token {

@@ -25,16 +25,15 @@ pub async fn column(tool: &Tool, item: &DueItem, label: &str, most: f64) -> Resu
     let found = check(tool, &item.platform, LINE_ITEM_SCOPE, answer, "looking for a column").await?;
     let own =
         |column: &&Value| column["resourceLinkId"] == item.link.as_str() && column["resourceId"] == assignment.as_str();
-    let column = match found.as_array().into_iter().flatten().find(own) {
-        Some(column) => column.clone(),
-        None => {
-            let label: String = label.chars().take(LABEL_CHARS).collect();
-            let column = json!({
-                "scoreMaximum": most, "label": label, "resourceId": assignment, "resourceLinkId": item.link, "tag": "grade",
-            });
-            let answer = tool.caller.post(&item.line_items_url, ITEM, &token, &column).await?;
-            check(tool, &item.platform, LINE_ITEM_SCOPE, answer, "making a column").await?
-        }
+    let column = if let Some(column) = found.as_array().into_iter().flatten().find(own) {
+        column.clone()
+    } else {
+        let label: String = label.chars().take(LABEL_CHARS).collect();
+        let column = json!({
+            "scoreMaximum": most, "label": label, "resourceId": assignment, "resourceLinkId": item.link, "tag": "grade",
+        });
+        let answer = tool.caller.post(&item.line_items_url, ITEM, &token, &column).await?;
+        check(tool, &item.platform, LINE_ITEM_SCOPE, answer, "making a column").await?
     };
     let id =
         column["id"].as_str().ok_or_else(|| LtiError::Platform("the platform's column has no address".to_owned()))?;

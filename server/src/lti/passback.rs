@@ -21,7 +21,7 @@ use tokio::time::timeout;
 const LOOK_EVERY: Duration = Duration::from_secs(1);
 
 /// For how long a score or column is this process's to send: longer than a call may take.
-const LEASE: Duration = Duration::from_secs(60);
+const LEASE: Duration = Duration::from_mins(1);
 
 /// Calls made at a time.
 const AT_A_TIME: i64 = 8;

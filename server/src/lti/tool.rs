@@ -68,13 +68,12 @@ impl Tool {
     pub async fn key(&self) -> Result<&ToolKey, LtiError> {
         self.key
             .get_or_try_init(|| async {
-                let kept = match self.store.kept_secret(KEY).await? {
-                    Some(kept) => kept,
-                    None => {
-                        let fresh = spawn_blocking(generate).await.context("making the key was broken off")??;
-                        // Another server may have been quicker: then its key is ours, too.
-                        self.desk.store.secret(KEY, &fresh).await?
-                    }
+                let kept = if let Some(kept) = self.store.kept_secret(KEY).await? {
+                    kept
+                } else {
+                    let fresh = spawn_blocking(generate).await.context("making the key was broken off")??;
+                    // Another server may have been quicker: then its key is ours, too.
+                    self.desk.store.secret(KEY, &fresh).await?
                 };
                 Ok(ToolKey::read(&kept)?)
             })

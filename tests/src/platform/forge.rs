@@ -3,10 +3,10 @@
 use anyhow::{Context, Result, bail};
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+use ring::hmac;
 use ring::rand::SystemRandom;
 use ring::rsa::PublicKeyComponents;
 use ring::signature::{RSA_PKCS1_2048_8192_SHA256, RSA_PKCS1_SHA256, RsaKeyPair, RsaPublicKeyComponents};
-use ring::hmac;
 use rsa_keys::pkcs1::EncodeRsaPrivateKey;
 use rsa_keys::rand_core::OsRng;
 use serde_json::{Value, json};

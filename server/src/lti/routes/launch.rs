@@ -36,7 +36,8 @@ const DESTINATION: HeaderName = HeaderName::from_static("sec-fetch-dest");
 #[derive(Debug, Deserialize)]
 pub(super) struct Login {
     iss: String,
-    login_hint: String,
+    #[serde(rename = "login_hint")]
+    user_hint: String,
     target_link_uri: String,
     lti_message_hint: Option<String>,
     client_id: Option<String>,
@@ -91,7 +92,7 @@ async fn begin_login(state: &AppState, headers: &HeaderMap, login: &Login) -> Re
         ("redirect_uri", redirect.as_str()),
         ("state", begun.state.as_str()),
         ("nonce", begun.nonce.as_str()),
-        ("login_hint", login.login_hint.as_str()),
+        ("login_hint", login.user_hint.as_str()),
     ]);
     if let Some(hint) = &login.lti_message_hint {
         url.query_pairs_mut().append_pair("lti_message_hint", hint);

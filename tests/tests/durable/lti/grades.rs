@@ -1,7 +1,7 @@
 //! Grades on their way while the platform does not answer and the server is killed: each arrives, once, with its value.
 
-use super::{Setting, standing};
 use super::lessons::scores;
+use super::{Setting, standing};
 use adaptarm_tests::classroom::{soft, stiff};
 use adaptarm_tests::platform::User;
 use anyhow::{Result, ensure};
@@ -71,7 +71,8 @@ fn unheard(setting: &mut Setting, tina: &User, assignment: &str) -> Result<()> {
 /// The teacher sees that grades wait, and why.
 fn waits(setting: &Setting, tina: &User, assignment: &str) -> Result<()> {
     let teacher = setting.enter(tina, "link-1", None)?;
-    let standing = standing(&teacher, assignment, |standing| standing["waiting"] == 3 && standing["error"].is_string())?;
+    let standing =
+        standing(&teacher, assignment, |standing| standing["waiting"] == 3 && standing["error"].is_string())?;
     ensure!(standing["sent"] == 0 && standing["error"].as_str().is_some_and(|why| why.contains("503")), "{standing}");
     Ok(())
 }

@@ -169,10 +169,7 @@ fn in_a_frame(setting: &Setting, assignment: &str) -> Result<()> {
     let mut enter = |site| browser.post_form("/lti/enter", &[("ticket", &ticket)], &[("sec-fetch-site", site)]);
     ensure!(enter("cross-site")?.status == 403, "another site's page enters");
     let entered = enter("same-origin")?;
-    ensure!(
-        entered.status == 303 && entered.header("location") == format!("/learn.html#{assignment}"),
-        "{entered}"
-    );
+    ensure!(entered.status == 303 && entered.header("location") == format!("/learn.html#{assignment}"), "{entered}");
     ensure!(entered.header("set-cookie").contains("SameSite=Strict"), "{}", entered.header("set-cookie"));
     ensure!(reason(&enter("same-origin")?)? == "ticket", "a ticket is good twice");
     Ok(())

@@ -130,11 +130,12 @@ pub(super) async fn known_as(pool: &Pool, student: Uuid) -> Result<Option<(Strin
 }
 
 pub(super) async fn is_course_account(pool: &Pool, person: Uuid) -> Result<bool, StoreError> {
-    let courses: i64 =
-        sqlx::query_scalar("SELECT COUNT(*) FROM lti_context c JOIN class o ON o.id = c.class_id WHERE o.teacher_id = $1")
-            .bind(person.to_string())
-            .fetch_one(pool)
-            .await?;
+    let courses: i64 = sqlx::query_scalar(
+        "SELECT COUNT(*) FROM lti_context c JOIN class o ON o.id = c.class_id WHERE o.teacher_id = $1",
+    )
+    .bind(person.to_string())
+    .fetch_one(pool)
+    .await?;
     Ok(courses > 0)
 }
 
