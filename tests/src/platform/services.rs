@@ -37,14 +37,23 @@ async fn keys(State(shared): State<Arc<Shared>>) -> Json<Value> {
     Json(json!({ "keys": [{ "kty": "EC", "kid": "another kind" }, shared.key.jwk()] }))
 }
 
-fn refuse(status: StatusCode, why: impl Into<String>) -> Response {
-    (status, Json(json!({ "error": why.into() }))).into_response()
+/// An answer that is none.
+struct Refused(StatusCode, String);
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        (self.0, Json(json!({ "error": self.1 }))).into_response()
+    }
+}
+
+fn refuse(status: StatusCode, why: impl Into<String>) -> Refused {
+    Refused(status, why.into())
 }
 
 /// Gives out a token for whoever shows that they are the tool.
-async fn token(State(shared): State<Arc<Shared>>, Form(fields): Form<Fields>) -> Response {
+async fn token(State(shared): State<Arc<Shared>>, Form(fields): Form<Fields>) -> Result<Response, Refused> {
     if shared.down.load(Ordering::SeqCst) {
-        return refuse(StatusCode::SERVICE_UNAVAILABLE, "down");
+        return Err(refuse(StatusCode::SERVICE_UNAVAILABLE, "down"));
     }
     let field = |name: &str| fields.get(name).cloned().unwrap_or_default();
     let (tool, assertion, scope) = (lock(&shared.tool).clone(), field("client_assertion"), field("scope"));
@@ -54,8 +63,8 @@ async fn token(State(shared): State<Arc<Shared>>, Form(fields): Form<Fields>) ->
     });
     let claims = match claims.await {
         Ok(Ok(claims)) => claims,
-        Ok(Err(error)) => return refuse(StatusCode::UNAUTHORIZED, format!("{error:#}")),
-        Err(error) => return refuse(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()),
+        Ok(Err(error)) => return Err(refuse(StatusCode::UNAUTHORIZED, format!("{error:#}"))),
+        Err(error) => return Err(refuse(StatusCode::INTERNAL_SERVER_ERROR, error.to_string())),
     };
     let now = jiff::Timestamp::now().as_second();
     let fits = claims["iss"] == CLIENT
@@ -66,16 +75,17 @@ async fn token(State(shared): State<Arc<Shared>>, Form(fields): Form<Fields>) ->
     let asked = field("grant_type") == "client_credentials"
         && field("client_assertion_type") == "urn:ietf:params:oauth:client-assertion-type:jwt-bearer";
     if !fits || !asked || !SCOPES.contains(&scope.as_str()) {
-        return refuse(StatusCode::BAD_REQUEST, format!("{claims}"));
+        return Err(refuse(StatusCode::BAD_REQUEST, format!("{claims}")));
     }
     let mut tokens = lock(&shared.tokens);
     let token = format!("token-{}", tokens.len());
     tokens.push((token.clone(), scope.clone()));
-    Json(json!({ "access_token": token, "token_type": "Bearer", "expires_in": 3600, "scope": scope })).into_response()
+    Ok(Json(json!({ "access_token": token, "token_type": "Bearer", "expires_in": 3600, "scope": scope }))
+        .into_response())
 }
 
 /// Whether a request may use a service.
-fn check(shared: &Shared, headers: &HeaderMap, scope: &str) -> Result<(), Response> {
+fn check(shared: &Shared, headers: &HeaderMap, scope: &str) -> Result<(), Refused> {
     if shared.down.load(Ordering::SeqCst) {
         return Err(refuse(StatusCode::SERVICE_UNAVAILABLE, "down"));
     }
@@ -88,7 +98,7 @@ async fn members(
     State(shared): State<Arc<Shared>>,
     headers: HeaderMap,
     Query(fields): Query<Fields>,
-) -> Result<Response, Response> {
+) -> Result<Response, Refused> {
     check(&shared, &headers, SCOPES[2])?;
     let page: usize = fields.get("page").and_then(|page| page.parse().ok()).unwrap_or(0);
     let all = lock(&shared.members).clone();
@@ -102,7 +112,7 @@ async fn columns(
     State(shared): State<Arc<Shared>>,
     headers: HeaderMap,
     Query(fields): Query<Fields>,
-) -> Result<Response, Response> {
+) -> Result<Response, Refused> {
     check(&shared, &headers, SCOPES[0])?;
     let wanted = fields.get("resource_link_id").map(String::as_str);
     let mut columns = lock(&shared.gradebook).columns.clone();
@@ -110,7 +120,7 @@ async fn columns(
     Ok(Json(columns).into_response())
 }
 
-async fn add_column(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: String) -> Result<Response, Response> {
+async fn add_column(State(shared): State<Arc<Shared>>, headers: HeaderMap, body: String) -> Result<Response, Refused> {
     check(&shared, &headers, SCOPES[0])?;
     let column = read(&headers, "application/vnd.ims.lis.v2.lineitem+json", &body)?;
     let added = lock(&shared.gradebook).add(&shared.url, &column);
@@ -123,7 +133,7 @@ async fn score(
     Path(number): Path<usize>,
     Query(fields): Query<Fields>,
     body: String,
-) -> Result<Response, Response> {
+) -> Result<Response, Refused> {
     check(&shared, &headers, SCOPES[1])?;
     if fields.get("type_id").map(String::as_str) != Some("3") {
         return Err(refuse(StatusCode::NOT_FOUND, "the column's address had a query"));
@@ -141,7 +151,7 @@ async fn score(
 }
 
 /// A body of this media type.
-fn read(headers: &HeaderMap, media_type: &str, body: &str) -> Result<Value, Response> {
+fn read(headers: &HeaderMap, media_type: &str, body: &str) -> Result<Value, Refused> {
     let declared = headers.get(header::CONTENT_TYPE).and_then(|declared| declared.to_str().ok());
     if declared != Some(media_type) {
         return Err(refuse(StatusCode::UNSUPPORTED_MEDIA_TYPE, media_type));
