@@ -108,7 +108,7 @@ fn run_by_run(document: &Value) -> Result<Option<String>> {
     let mut results = Results::new();
     for run in experiment.plan(0..runs) {
         let row: Row = match run.scenario {
-            Ok(scenario) => experiment.row(run.index, &scenario.run().report),
+            Ok(scenario) => experiment.row(run.index, &scenario.run()),
             Err(why) => experiment.refused(run.index, &why),
         };
         results.insert(&experiment, row)?;
