@@ -136,12 +136,7 @@ fn mark_color(theme: Theme) -> Rgb {
     scheme_style(Scheme::Proposed, theme).0
 }
 
-fn square<S: Surface>(
-    pen: &mut Pen<'_, S>,
-    (x, y): (f64, f64),
-    is_open: bool,
-    theme: Theme,
-) -> Result<(), DrawError> {
+fn square<S: Surface>(pen: &mut Pen<'_, S>, (x, y): (f64, f64), is_open: bool, theme: Theme) -> Result<(), DrawError> {
     let around = |half: f64| Frame { left: x - half, top: y - half, right: x + half, bottom: y + half };
     pen.fill(around(pen.px(HALF_SQUARE)), mark_color(theme))?;
     if is_open { pen.fill(around(pen.px(HALF_SQUARE - 1.5)), theme.background()) } else { Ok(()) }

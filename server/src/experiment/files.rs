@@ -7,7 +7,9 @@ use super::search_report;
 use crate::figures::PictureFormat;
 use crate::series::parquet;
 use adaptarm_core::experiments::replication::ReplicationSummary;
-use adaptarm_core::experiments::{Experiment, ExperimentKind, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
+use adaptarm_core::experiments::{
+    Experiment, ExperimentKind, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary,
+};
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
