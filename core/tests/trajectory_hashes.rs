@@ -1,7 +1,8 @@
 //! The bits of the default study: the same in every build and on every target.
 //!
-//! `tests/trajectory_hashes.json` holds the hashes. This test is run optimised and, by `cargo xtask test`, again with the
-//! `unoptimized` profile; the end-to-end tests compare the release binary and the browser with the same file. A change of
+//! `tests/trajectory_hashes.json` holds the hashes. This test is run optimised with debug assertions and, by `cargo xtask test`,
+//! again in a release build and with the `unoptimized` profile; the end-to-end tests compare the program and the browser with
+//! the same file. A change of
 //! any operation in the core changes the hashes: then, and only then, put the new ones in, and say so in the changelog.
 
 use adaptarm_core::scenario::{Scenario, Scheme};

@@ -32,9 +32,9 @@ pub fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
         // A new version must not run an old one's scripts: browsers keep files, but ask each time whether they changed.
         .html_cache_control(CacheControl::NoCache)
         .cache_control(CacheControl::NoCache)
-        // A debug build compresses at each request, which takes seconds unoptimised.
-        .enable_brotli(!cfg!(debug_assertions))
-        .enable_gzip(!cfg!(debug_assertions))
+        // What is not embedded is compressed at each request, which takes seconds unoptimised.
+        .enable_brotli(cfg!(embedded))
+        .enable_gzip(cfg!(embedded))
         .into_router()
         .route(LIST, get(list))
 }
@@ -56,8 +56,8 @@ fn assets() -> &'static [memory_serve::Asset] {
 /// The list, which browsers ask for at each visit: a tag spares its repetition.
 async fn list(headers: HeaderMap) -> Response {
     static EMBEDDED: LazyLock<Files> = LazyLock::new(Files::of_page);
-    // A debug build serves files as they are on disk now.
-    let files = if cfg!(debug_assertions) { &Files::of_page() } else { &*EMBEDDED };
+    // What is not embedded is served as it is on disk now.
+    let files = if cfg!(embedded) { &*EMBEDDED } else { &Files::of_page() };
     let tag = format!("\"{}\"", files.version);
     let known = headers.get(header::IF_NONE_MATCH).is_some_and(|known| known.as_bytes() == tag.as_bytes());
     let status = if known { StatusCode::NOT_MODIFIED } else { StatusCode::OK };

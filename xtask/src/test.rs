@@ -17,7 +17,6 @@ use crate::{DistArgs, Purpose, TestArgs, dist, setup, setup_services, tidy, tool
 
 /// Random cases per property in a soak; proptest's own default is 256.
 const SOAK_CASES: &str = "20000";
-const UNOPTIMISED_TEST: &str = "core/tests/trajectory_hashes.rs";
 
 pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
     let mut steps = Steps::new();
@@ -33,15 +32,14 @@ pub(crate) fn run(workspace: &Workspace, args: &TestArgs) -> Result<()> {
     if every_check {
         component(&mut steps, "lints", "clippy", "clippy", &mut lints(workspace))?;
     }
-    tool(&mut steps, "server", &mut build_server(workspace, "release"))?;
+    if args.soak {
+        tool(&mut steps, "release", &mut build_server(workspace, "release"))?;
+    }
     tool(&mut steps, "tests", &mut tests(workspace, args)?)?;
     if every_check {
-        if workspace.root.join(UNOPTIMISED_TEST).is_file() {
-            tool(&mut steps, "unoptimised bits", &mut unoptimised(workspace))?;
-        } else {
-            let reason = format!("{UNOPTIMISED_TEST} does not exist yet");
-            steps.run("unoptimised bits", "", || Ok(Outcome::Skipped(reason)))?;
-        }
+        tool(&mut steps, "unoptimised bits", &mut core_tests(workspace, "unoptimized", &["trajectory_hashes"]))?;
+        let mut release = core_tests(workspace, "release", &["trajectory_hashes", "effort"]);
+        tool(&mut steps, "release bits", &mut release)?;
     }
     steps.print_table();
     Ok(())
@@ -71,9 +69,12 @@ fn lints(workspace: &Workspace) -> Command {
 }
 
 /// The workspace's tests, told where the server's program is and what they may use.
+///
+/// That program is the one that they build themselves, with the page inside: its core is optimised like a release's. A release
+/// takes a quarter of an hour to compile, so it is what a soak drives.
 fn tests(workspace: &Workspace, args: &TestArgs) -> Result<Command> {
     let mut command = workspace.cargo();
-    command.env("ADAPTARM_BIN", workspace.server_program("release"));
+    command.env("ADAPTARM_BIN", workspace.server_program(if args.soak { "release" } else { "dev" }));
     if args.soak {
         command.env("PROPTEST_CASES", SOAK_CASES).env("ADAPTARM_SOAK", "1");
     }
@@ -99,14 +100,16 @@ fn tests(workspace: &Workspace, args: &TestArgs) -> Result<Command> {
     Ok(command)
 }
 
-/// The same trajectories without optimisation anywhere: the bits must not depend on it.
-fn unoptimised(workspace: &Workspace) -> Command {
+/// The core's tests whose answer depends on how it is compiled: the bits must not, and the effort counts in a release only.
+fn core_tests(workspace: &Workspace, profile: &str, names: &[&str]) -> Command {
     let mut command = workspace.cargo();
-    command.args(["test", "--profile", "unoptimized", "--package", "adaptarm-core"]).args([
-        "--test",
-        "trajectory_hashes",
-        "--locked",
-    ]);
+    command.args(["test", "--locked", "--package", "adaptarm-core", "--profile", profile]);
+    for name in names {
+        command.args(["--test", name]);
+    }
+    if VALGRIND.is_required() {
+        command.env(VALGRIND.variable(), "1");
+    }
     command
 }
 
