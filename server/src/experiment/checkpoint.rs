@@ -2,11 +2,11 @@
 //! leaves one or the other.
 
 use adaptarm_core::VERSION;
-use adaptarm_core::experiments::{Experiment, Row, Tuning};
+use adaptarm_core::experiments::{Experiment, Results, Row, Tuning};
 use anyhow::{Context, Result};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::fs::File;
-use std::io::{ErrorKind, Write};
+use std::io::{BufWriter, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -19,10 +19,22 @@ const INTERVAL: Duration = Duration::from_secs(2);
 const SHARE: u32 = 20;
 
 /// What is done.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) enum State {
     Rows(Vec<Row>),
     Tuning(Box<Tuning>),
+}
+
+/// The same where it is, to be written without a copy.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[serde(rename = "State")]
+pub(super) enum Current<'a> {
+    Rows(#[serde(serialize_with = "rows")] &'a Results),
+    Tuning(&'a Tuning),
+}
+
+fn rows<S: Serializer>(results: &Results, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(results.rows())
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -84,15 +96,15 @@ impl Checkpoint {
     }
 
     /// Writes what is done if it is time to.
-    pub fn save_if_due(&mut self, state: impl FnOnce() -> State) -> Result<()> {
+    pub fn save_if_due(&mut self, state: Current<'_>) -> Result<()> {
         if self.path.is_none() || self.written.elapsed() < INTERVAL.max(self.took * SHARE) {
             return Ok(());
         }
-        self.save(&state())
+        self.save(state)
     }
 
     /// Writes what is done.
-    pub fn save(&mut self, state: &State) -> Result<()> {
+    pub fn save(&mut self, state: Current<'_>) -> Result<()> {
         let Some(path) = &self.path else { return Ok(()) };
         let began = Instant::now();
         let stored = Stored {
@@ -101,21 +113,52 @@ impl Checkpoint {
             experiment_hash: self.experiment_hash.clone(),
             state,
         };
-        let bytes = rmp_serde::to_vec(&stored)?;
-        replace(path, &[blake3::hash(&bytes).as_bytes(), bytes.as_slice()].concat())?;
+        replace_by(path, |file| {
+            // The seal stands first and is known last.
+            file.write_all(&[0; blake3::OUT_LEN])?;
+            let mut sealing = Sealing { file, hasher: blake3::Hasher::new() };
+            rmp_serde::encode::write(&mut sealing, &stored)?;
+            let seal = sealing.hasher.finalize();
+            file.rewind()?;
+            Ok(file.write_all(seal.as_bytes())?)
+        })?;
         self.written = Instant::now();
         self.took = began.elapsed();
         Ok(())
     }
 }
 
-/// Puts a file in the place of another, whole or not at all.
+/// Passes bytes on to a file and remembers their hash.
+struct Sealing<'a> {
+    file: &'a mut BufWriter<File>,
+    hasher: blake3::Hasher,
+}
+
+impl Write for Sealing<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let count = self.file.write(bytes)?;
+        self.hasher.update(&bytes[..count]);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// Puts bytes in the place of a file, whole or not at all.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
+    replace_by(path, |file| Ok(file.write_all(bytes)?))
+}
+
+/// The same with what writes them, so that not all are held at once.
+pub(super) fn replace_by(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<()>) -> Result<()> {
     let context = || format!("cannot write {}", path.display());
     let mut beside = path.as_os_str().to_owned();
     beside.push(".new");
-    let mut file = File::create(&beside).with_context(context)?;
-    file.write_all(bytes).and_then(|()| file.sync_all()).with_context(context)?;
+    let mut file = BufWriter::new(File::create(&beside).with_context(context)?);
+    write(&mut file).with_context(context)?;
+    file.flush().and_then(|()| file.get_ref().sync_all()).with_context(context)?;
     std::fs::rename(&beside, path).with_context(context)
 }
 
@@ -138,15 +181,17 @@ mod tests {
         let mine = experiment(1);
         let mut checkpoint = Checkpoint::new(&mine, Some(folder.path()));
         assert_eq!(checkpoint.load(&mine).unwrap(), None);
-        let state = State::Rows(vec![Row {
+        let row = Row {
             index: 2,
             outcome: adaptarm_core::experiments::RowOutcome::Completed,
             at_s: None,
             refusal: None,
-            metrics: vec![Some(0.1 + 0.2), None, Some(5e-324)],
-        }]);
-        checkpoint.save(&state).unwrap();
-        assert_eq!(checkpoint.load(&mine).unwrap(), Some(state));
+            metrics: (0..mine.columns().names().len()).map(|n| (n % 3 > 0).then_some(0.1 + 0.2 * n as f64)).collect(),
+        };
+        let mut results = Results::new();
+        results.insert(&mine, row.clone()).unwrap();
+        checkpoint.save(Current::Rows(&results)).unwrap();
+        assert_eq!(checkpoint.load(&mine).unwrap(), Some(State::Rows(vec![row])));
         let other = experiment(2);
         let said = Checkpoint::new(&other, Some(folder.path())).load(&other).unwrap_err().to_string();
         assert!(said.contains("another experiment"), "{said}");

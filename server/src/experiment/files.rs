@@ -2,7 +2,7 @@
 //! CSV and Parquet; of a tuning, the best scenario, its generations and its Pareto front; of a replication, its report.
 
 use super::Picture;
-use super::checkpoint::replace;
+use super::checkpoint::{replace, replace_by};
 use super::search_report;
 use crate::figures::PictureFormat;
 use crate::series::parquet;
@@ -13,6 +13,7 @@ use adaptarm_core::experiments::{
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// What is known of an experiment, at its end or on the way there.
@@ -123,7 +124,9 @@ impl File {
             (Self::Summary, Found::Readings(_, summary)) => json(summary)?,
             (Self::Summary, Found::Search(tuning)) => json(&tuning.summary(experiment))?,
             (Self::RunsCsv, Found::Rows(results, _) | Found::Readings(results, _)) => {
-                csv(experiment, results).into_bytes()
+                let mut text = Vec::new();
+                csv(experiment, results, &mut text)?;
+                text
             }
             (Self::RunsParquet, Found::Rows(results, _) | Found::Readings(results, _)) => table(experiment, results)?,
             (Self::Best, Found::Search(tuning)) => match tuning.best_scenario(experiment) {
@@ -148,6 +151,11 @@ impl File {
 /// Writes all files of an experiment into a folder, and its figures as SVG.
 pub(super) fn write(experiment: &Experiment, found: &Found, folder: &Path) -> Result<()> {
     for file in File::of(experiment) {
+        // Much larger than the numbers in it: not held in memory.
+        if let (File::RunsCsv, Found::Rows(results, _) | Found::Readings(results, _)) = (file, found) {
+            replace_by(&folder.join(file.name()), |text| Ok(csv(experiment, results, text)?))?;
+            continue;
+        }
         if let Some(bytes) = file.bytes(experiment, found)? {
             replace(&folder.join(file.name()), &bytes)?;
         }
@@ -184,26 +192,25 @@ fn front_table(front: &Front, variables: &[String]) -> String {
 }
 
 /// A row per run; an empty cell where there is no number.
-fn csv(experiment: &Experiment, results: &Results) -> String {
+fn csv(experiment: &Experiment, results: &Results, text: &mut dyn Write) -> io::Result<()> {
     let (conditions, bases) = (experiment.condition_names(), experiment.base_names().collect::<Vec<_>>());
     let names = ["run", "point", "condition", "base", "outcome", "at_s"].into_iter().chain(experiment.fields());
     let names = names.chain(experiment.columns().names().iter().map(String::as_str));
-    let mut text = names.map(cell).collect::<Vec<_>>().join(",");
-    text.push('\n');
+    writeln!(text, "{}", names.map(cell).collect::<Vec<_>>().join(","))?;
     for row in results.rows() {
         let Some(place) = experiment.place(row.index) else { continue };
         let (condition, base) = (cell(conditions[place.condition]), cell(bases[place.base]));
-        let _ = write!(text, "{},{},{condition},{base},{}", row.index, place.point, outcome(row));
+        write!(text, "{},{},{condition},{base},{}", row.index, place.point, outcome(row))?;
         let values = experiment.values(place.point).into_iter().map(Some);
         for number in [row.at_s].into_iter().chain(values).chain(row.metrics.iter().copied()) {
-            text.push(',');
-            if let Some(number) = number {
-                let _ = write!(text, "{number:?}");
+            match number {
+                Some(number) => write!(text, ",{number:?}")?,
+                None => write!(text, ",")?,
             }
         }
-        text.push('\n');
+        writeln!(text)?;
     }
-    text
+    Ok(())
 }
 
 fn outcome(row: &Row) -> &'static str {
@@ -224,22 +231,23 @@ fn cell(name: &str) -> String {
 fn table(experiment: &Experiment, results: &Results) -> Result<Vec<u8>> {
     let names = ["run", "point", "condition", "base", "outcome", "at_s"].into_iter().chain(experiment.fields());
     let names: Vec<_> = names.map(str::to_owned).chain(experiment.columns().names().iter().cloned()).collect();
-    let mut columns = vec![Vec::with_capacity(results.len()); names.len()];
-    for row in results.rows() {
-        let Some(place) = experiment.place(row.index) else { continue };
-        let outcome = row.outcome as u8;
-        let lead =
-            [row.index as f64, place.point as f64, place.condition as f64, place.base as f64, f64::from(outcome)];
-        let rest = [row.at_s].into_iter().chain(experiment.values(place.point).into_iter().map(Some));
-        let rest = rest.chain(row.metrics.iter().copied()).map(|number| number.unwrap_or(f64::NAN));
-        for (column, number) in columns.iter_mut().zip(lead.into_iter().chain(rest)) {
-            column.push(number);
+    let (lead, fields) = (6, experiment.fields().len());
+    // One after another: together they would take as much memory as all rows.
+    let number = |row: &Row, column: usize| {
+        let place = experiment.place(row.index)?;
+        match column {
+            0 => Some(row.index as f64),
+            1 => Some(place.point as f64),
+            2 => Some(place.condition as f64),
+            3 => Some(place.base as f64),
+            4 => Some(f64::from(row.outcome as u8)),
+            5 => row.at_s,
+            field if field < lead + fields => experiment.values(place.point).get(field - lead).copied(),
+            metric => row.metrics[metric - lead - fields],
         }
-    }
+    };
+    let columns =
+        (0..names.len()).map(|column| results.rows().map(|row| number(row, column).unwrap_or(f64::NAN)).collect());
     let metadata = [("adaptarm.experiment_hash", experiment.hash())];
-    Ok(parquet::from_columns(
-        &names,
-        columns.into_iter(),
-        &metadata.each_ref().map(|(key, value)| (*key, value.as_str())),
-    )?)
+    Ok(parquet::from_columns(&names, columns, &metadata.each_ref().map(|(key, value)| (*key, value.as_str())))?)
 }

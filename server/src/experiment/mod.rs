@@ -15,7 +15,7 @@ pub use pictures::Picture;
 use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, PlannedRun, Results, Row, Summary, Tuning, TuningError, TuningSummary};
 use anyhow::{Context, Result};
-use checkpoint::{Checkpoint, State};
+use checkpoint::{Checkpoint, Current, State};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -112,10 +112,10 @@ fn lay_out(
     each_row(experiment, &chunks, &plan, pool, &mut |row| {
         results.insert(experiment, row)?;
         bar.inc(1);
-        checkpoint.save_if_due(|| State::Rows(results.rows().cloned().collect()))
+        checkpoint.save_if_due(Current::Rows(&results))
     })?;
     bar.finish_and_clear();
-    checkpoint.save(&State::Rows(results.rows().cloned().collect()))?;
+    checkpoint.save(Current::Rows(&results))?;
     finish(experiment, Found::of(experiment, results), folder)
 }
 
@@ -153,13 +153,13 @@ fn search(
             Ok(())
         })?;
         tuning.tell(experiment, rows).map_err(Refused::Objective)?;
-        checkpoint.save_if_due(|| State::Tuning(Box::new(tuning.clone())))?;
+        checkpoint.save_if_due(Current::Tuning(&tuning))?;
         let (done, all) = tuning.progress(experiment);
         bar.set_length(all);
         bar.set_position(done);
     }
     bar.finish_and_clear();
-    checkpoint.save(&State::Tuning(Box::new(tuning.clone())))?;
+    checkpoint.save(Current::Tuning(&tuning))?;
     finish(experiment, Found::Search(Box::new(tuning)), folder)
 }
 
