@@ -184,8 +184,8 @@ fn check_order(document: ScenarioDocument, step_s: f64) {
         assert!((order(pair) - 1.0).abs() < 0.25, "{name}: order {}, {errors:?}", order(pair));
     }
     assert!((order(&delayed) - 1.0).abs() < 0.3, "{name}: order {} with delay, {delayed:?}", order(&delayed));
-    // A sampled filter leads the continuous one, and a delay makes up for it.
-    assert!(delayed[1] > errors[1] || document.velocity.is_some(), "{name}: a delay does not help");
+    // On the light arm an Euler step runs ahead of the continuous controller, and a delay makes up for it.
+    assert!(delayed[1] > errors[1] || document.robot != "crs_a465", "{name}: a delay does not help");
 }
 
 /// Sampling, delay, encoder, saturation, payload and disturbance of a PD controller, written down once more by hand.
