@@ -148,22 +148,22 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 /// Zero-order hold and the controller's Euler steps are of order 1 in the period, a delay of order 1 in itself.
 #[test]
 fn a_sampled_controller_tends_to_the_continuous_one_at_order_one() {
-    Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS).for_each(|scheme| check_order(short(scheme), 1e-4));
+    Scheme::ALL.into_iter().chain(Scheme::YARDSTICKS).for_each(|scheme| check_order(&short(scheme), 1e-4));
     let two_link = || ScenarioDocument::of_robot("two_link", SchemeDocument::SlotineLi(None));
     for kind in [VelocityKind::FilteredDifference, VelocityKind::Observer, VelocityKind::HighGain] {
         // The linear ones at a bandwidth that leaves this loop damped.
         let bandwidth_rad_s = (kind != VelocityKind::Observer).then_some(2000.0);
         let velocity = Some(VelocityDocument { kind, bandwidth_rad_s, ..Default::default() });
-        check_order(ScenarioDocument { velocity, ..two_link() }, 2.5e-5);
+        check_order(&ScenarioDocument { velocity, ..two_link() }, 2.5e-5);
     }
     for kind in [AdaptationKind::LeastSquares, AdaptationKind::Concurrent, AdaptationKind::Drem] {
         let adaptation = Some(AdaptationDocument { kind, ..Default::default() });
-        check_order(ScenarioDocument { adaptation, ..two_link() }, 2.5e-5);
+        check_order(&ScenarioDocument { adaptation, ..two_link() }, 2.5e-5);
     }
 }
 
 /// With periods of 4, 2 and 1 integration steps.
-fn check_order(document: ScenarioDocument, step_s: f64) {
+fn check_order(document: &ScenarioDocument, step_s: f64) {
     let name = format!("{} {:?} {:?} {:?}", document.robot, document.scheme, document.velocity, document.adaptation);
     // Smooth, so that the order shows at these steps.
     let smooth = |effects: Option<EffectsDocument>| {

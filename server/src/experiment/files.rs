@@ -30,12 +30,11 @@ pub enum Found {
 impl Found {
     /// What the rows of an experiment that is no tuning say.
     pub fn of(experiment: &Experiment, results: Results) -> Self {
-        match ReplicationSummary::of(experiment, &results) {
-            Some(summary) => Self::Readings(results, Box::new(summary)),
-            None => {
-                let summary = Box::new(Summary::of(experiment, &results));
-                Self::Rows(results, summary)
-            }
+        if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+            Self::Readings(results, Box::new(summary))
+        } else {
+            let summary = Box::new(Summary::of(experiment, &results));
+            Self::Rows(results, summary)
         }
     }
 

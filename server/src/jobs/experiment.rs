@@ -187,12 +187,11 @@ fn sum_up(experiment: &Experiment, step: i64, rows: Vec<Row>) -> Result<Folded, 
     for row in rows {
         results.insert(experiment, row).map_err(|error| (FailureReason::Storage, error.to_string()))?;
     }
-    let (digest, summary) = match ReplicationSummary::of(experiment, &results) {
-        Some(summary) => (digest_of_replication(&summary), text(&summary)),
-        None => {
-            let summary = Summary::of(experiment, &results);
-            (digest(&summary), text(&summary))
-        }
+    let (digest, summary) = if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+        (digest_of_replication(&summary), text(&summary))
+    } else {
+        let summary = Summary::of(experiment, &results);
+        (digest(&summary), text(&summary))
     };
     let complete = Some(results.len() as u64) == experiment.runs();
     Ok(Folded {
