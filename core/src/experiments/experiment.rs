@@ -11,7 +11,7 @@ use super::replication::Search;
 use super::resolve;
 use super::row::{ResultColumns, Row};
 use super::tuning::TuningPlan;
-use crate::scenario::{Problem, ReadError, Report, Scenario, ScenarioError, read_document, run_each};
+use crate::scenario::{Problem, ReadError, Run, Scenario, ScenarioError, read_document, run_each};
 use serde::Deserializer;
 use std::ops::{ControlFlow, Range};
 
@@ -108,6 +108,12 @@ impl Experiment {
             Work::Searched(plan) => plan.most_runs(),
             Work::Replicated(search) => search.runs(),
         }
+    }
+
+    /// Integration steps of a run at most, as the bases have them; of a replication, as any of its options has them.
+    pub fn steps_per_run(&self) -> u64 {
+        let bases = self.base_scenarios().map(|scenario| scenario.settings().steps());
+        bases.chain(self.search().map(|search| search.steps)).max().unwrap_or(0)
     }
 
     pub(super) fn layout(&self) -> Option<&Layout> {
@@ -211,17 +217,15 @@ impl Experiment {
                 Err(error) => each(self.refused(run.index, &error))?,
             }
         }
-        run_each(&scenarios, |n, run| {
-            each(match &self.work {
-                Work::Replicated(search) => search.row(indices[n], &run),
-                Work::LaidOut(_) | Work::Searched(_) => Row::of(indices[n], &self.columns, &run.report),
-            })
-        })
+        run_each(&scenarios, |n, run| each(self.row(indices[n], &run)))
     }
 
-    /// What is kept of a run that was made; of a replication's, [`Experiment::run`] keeps more.
-    pub fn row(&self, index: u64, report: &Report) -> Row {
-        Row::of(index, &self.columns, report)
+    /// What is kept of a run that was made.
+    pub fn row(&self, index: u64, run: &Run) -> Row {
+        match &self.work {
+            Work::Replicated(search) => search.row(index, run),
+            Work::LaidOut(_) | Work::Searched(_) => Row::of(index, &self.columns, &run.report),
+        }
     }
 
     /// What is kept of a run whose scenario is not allowed.

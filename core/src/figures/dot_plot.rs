@@ -4,16 +4,15 @@
 
 use super::axes::{decade_above, decade_below, power_of_ten};
 use super::path::{Frame, Path};
-use super::style::{Dash, Line, Rgb, Style, Theme, scheme_style};
-use super::surface::{Anchor, DrawError, Pen};
+use super::style::{Dash, Line, Rgb, Theme, scheme_style};
+use super::surface::{Anchor, DrawError, Pen, Surface};
 use super::ticks::Tick;
 use crate::scalar::decimal_logarithm;
 use crate::scenario::Scheme;
-use plotters::prelude::*;
 
 /// A row.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct DotRow {
+pub(super) struct DotRow {
     /// What it is about.
     pub label: String,
     /// Least and greatest value.
@@ -26,7 +25,7 @@ pub struct DotRow {
 
 /// The picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DotPlot<'a> {
+pub(super) struct DotPlot<'a> {
     /// Title of the value axis.
     pub axis: &'a str,
     /// What span, filled and open squares are; what is empty does not show in the legend.
@@ -38,7 +37,6 @@ pub struct DotPlot<'a> {
 }
 
 /// Layout pixels.
-const WIDTH: u32 = 900;
 const ROW: f64 = 18.0;
 const LEFT: f64 = 300.0;
 const RIGHT: f64 = 24.0;
@@ -46,8 +44,6 @@ const TOP: f64 = 34.0;
 const BOTTOM: f64 = 44.0;
 const HALF_SQUARE: f64 = 4.0;
 const LETTERS: f64 = 12.0;
-/// Drawing units per layout pixel.
-const UNITS: u32 = 4;
 
 /// Logarithmic axis across the picture.
 struct Scale {
@@ -88,28 +84,17 @@ impl Scale {
     }
 }
 
-/// The picture as an SVG document on paper.
-pub fn dot_plot(plot: &DotPlot<'_>) -> Result<String, DrawError> {
+/// Height of the picture, layout pixels.
+pub(super) fn height(plot: &DotPlot<'_>) -> u32 {
     let lines: usize = plot.groups.iter().map(|(_, rows)| rows.len() + 1).sum();
-    let height = (TOP + BOTTOM + ROW * lines as f64).ceil() as u32;
-    let mut document = String::new();
-    {
-        let mut backend = SVGBackend::with_string(&mut document, (WIDTH * UNITS, height * UNITS));
-        let style = Style { theme: Theme::Light, scale: f64::from(UNITS) };
-        let mut pen = Pen { surface: &mut backend, style };
-        let (right, bottom) = (pen.px(f64::from(WIDTH)), pen.px(f64::from(height)));
-        pen.fill(Frame { left: 0.0, top: 0.0, right, bottom }, style.theme.background())?;
-        draw(&mut pen, plot, right, bottom)?;
-        backend.present()?;
-    }
-    let drawn = format!("<svg width=\"{}\" height=\"{}\"", WIDTH * UNITS, height * UNITS);
-    Ok(document.replacen(&drawn, &format!("<svg width=\"{WIDTH}\" height=\"{height}\""), 1))
+    (TOP + BOTTOM + ROW * lines as f64).ceil() as u32
 }
 
-fn draw(pen: &mut Pen<'_, SVGBackend<'_>>, plot: &DotPlot<'_>, right: f64, bottom: f64) -> Result<(), DrawError> {
+/// Draws it from the left and upper edges to those of a frame.
+pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, plot: &DotPlot<'_>, whole: &Frame) -> Result<(), DrawError> {
     let theme = pen.style.theme;
-    let scale = Scale::new(plot, pen.px(LEFT), right - pen.px(RIGHT));
-    let (top, floor) = (pen.px(TOP), bottom - pen.px(BOTTOM));
+    let scale = Scale::new(plot, pen.px(LEFT), whole.right - pen.px(RIGHT));
+    let (top, floor) = (pen.px(TOP), whole.bottom - pen.px(BOTTOM));
     for (value, label) in scale.ticks() {
         let x = scale.x(value);
         pen.hairline((x, top), (x, floor), theme.grid())?;
@@ -133,7 +118,7 @@ fn draw(pen: &mut Pen<'_, SVGBackend<'_>>, plot: &DotPlot<'_>, right: f64, botto
     Ok(())
 }
 
-fn draw_row(pen: &mut Pen<'_, SVGBackend<'_>>, row: &DotRow, scale: &Scale, y: f64) -> Result<(), DrawError> {
+fn draw_row<S: Surface>(pen: &mut Pen<'_, S>, row: &DotRow, scale: &Scale, y: f64) -> Result<(), DrawError> {
     let theme = pen.style.theme;
     if let Some([low, high]) = row.span.filter(|[low, _]| *low > 0.0) {
         let line = Line { color: theme.truth(), dash: Dash(None), width: 3.0 };
@@ -151,13 +136,13 @@ fn mark_color(theme: Theme) -> Rgb {
     scheme_style(Scheme::Proposed, theme).0
 }
 
-fn square(pen: &mut Pen<'_, SVGBackend<'_>>, (x, y): (f64, f64), is_open: bool, theme: Theme) -> Result<(), DrawError> {
+fn square<S: Surface>(pen: &mut Pen<'_, S>, (x, y): (f64, f64), is_open: bool, theme: Theme) -> Result<(), DrawError> {
     let around = |half: f64| Frame { left: x - half, top: y - half, right: x + half, bottom: y + half };
     pen.fill(around(pen.px(HALF_SQUARE)), mark_color(theme))?;
     if is_open { pen.fill(around(pen.px(HALF_SQUARE - 1.5)), theme.background()) } else { Ok(()) }
 }
 
-fn draw_legend(pen: &mut Pen<'_, SVGBackend<'_>>, plot: &DotPlot<'_>) -> Result<(), DrawError> {
+fn draw_legend<S: Surface>(pen: &mut Pen<'_, S>, plot: &DotPlot<'_>) -> Result<(), DrawError> {
     let theme = pen.style.theme;
     let (mut x, y) = (pen.px(12.0), pen.px(14.0));
     for (n, name) in plot.legend.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
@@ -175,7 +160,9 @@ fn draw_legend(pen: &mut Pen<'_, SVGBackend<'_>>, plot: &DotPlot<'_>) -> Result<
 
 #[cfg(test)]
 mod tests {
+    use super::super::style::Style;
     use super::*;
+    use plotters::prelude::*;
 
     #[test]
     fn what_has_no_place_on_the_axis_is_left_out() {
@@ -186,7 +173,13 @@ mod tests {
         assert!((scale.x(1.0) - 50.0).abs() < 1e-9);
         let labels: Vec<_> = scale.ticks().into_iter().map(|(_, label)| label).collect();
         assert_eq!(labels, ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
-        let svg = dot_plot(&plot).unwrap();
+        let mut svg = String::new();
+        {
+            let mut backend = SVGBackend::with_string(&mut svg, (900, height(&plot)));
+            let mut pen = Pen { surface: &mut backend, style: Style { theme: Theme::Light, scale: 1.0 } };
+            draw(&mut pen, &plot, &Frame { left: 0.0, top: 0.0, right: 900.0, bottom: 200.0 }).unwrap();
+            backend.present().unwrap();
+        }
         let color = svg.matches("fill=\"#0054A6\"").count();
         assert_eq!(color, 3, "one in the legend, two in rows");
     }

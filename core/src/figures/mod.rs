@@ -21,7 +21,6 @@ mod svg;
 mod ticks;
 mod view;
 
-pub use dot_plot::{DotPlot, DotRow, dot_plot};
 pub use draw::draw;
 pub use experiment::{ExperimentFigure, Shown, draw_experiment, experiment_metrics, experiment_svg};
 pub use figure::Figure;

@@ -52,9 +52,14 @@ fn every_yardstick_tracks_and_more_knowledge_tracks_better() {
     assert!(computed_torque < 1e-6 && computed_torque < pd_gravity && pd_gravity < pd && pd < 5.0);
 }
 
-/// Recursive and batch least squares along one motion: `P⁻¹ = P0⁻¹ + γ ∫YfᵀYf`, `P⁻¹ θ̂ = P0⁻¹ θ̂0 + γ ∫Yfᵀτf`.
+/// Recursive and batch least squares along one motion, `J = P⁻¹` and `b = J θ̂`: `J' = γ YfᵀYf − λ J`, `b' = γ Yfᵀτf − λ b`, with old data
+/// fading at `λ = λ0 (1 − tr J⁻¹ / k0)`, or not at all.
 #[test]
 fn least_squares_is_the_batch_solution() {
+    [0.0, 3.0].into_iter().for_each(check_batch);
+}
+
+fn check_batch(forgetting: f64) {
     type Law = LeastSquaresAdaptation<CrsA465, f64, 3, 18>;
     const FILTER: usize = FilteredRegressor::<CrsA465, f64, 3, 18>::STATES;
     let (p0, theta_start, weight) = (0.5, 0.3, 2.0);
@@ -62,8 +67,8 @@ fn least_squares_is_the_batch_solution() {
         filter: FilteredRegressor::new(15.0),
         initial_gain: SVector::repeat(p0),
         weight,
-        forgetting: 0.0,
-        gain_limit: 100.0,
+        forgetting,
+        gain_limit: 20.0,
     };
     let theta = SVector::<f64, 18>::from_vec(CrsA465::DATA.theta());
     let plant = Plant::<CrsA465, f64, 3, 18>::new(theta, FrictionSign::from_width(0.1));
@@ -77,6 +82,10 @@ fn least_squares_is_the_batch_solution() {
     x[estimates..states].fill(theta_start);
     let (q, v) = (vector(&x), vector(&x[3..]));
     law.initialize(&CrsA465::geometry(&q), &v, &mut x[states..information]);
+    for k in 0..18 {
+        x[information + 19 * k] = 1.0 / p0;
+        x[correlation + k] = theta_start / p0;
+    }
     let mut rk4 = Rk4::new(x.len());
     let rhs = |t: f64, x: &[f64], rate: &mut [f64]| {
         let (geometry, velocity, torque) = (CrsA465::geometry(&vector(x)), vector(&x[3..]), torque_at(t));
@@ -96,25 +105,28 @@ fn least_squares_is_the_batch_solution() {
         law.derivative(&input, &x[states..information], estimates_rate, &mut rest[..law_states]);
         let (y, tau): (Regressor<f64, 3, 18>, _) =
             law.filter.advance(&geometry, &velocity, &sign, &torque, &x[states..], &mut vec![0.0; FILTER]);
-        rate[information..correlation].copy_from_slice((y.transpose() * y * weight).as_slice());
-        rate[correlation..].copy_from_slice((y.transpose() * tau * weight).as_slice());
+        let known = SMatrix::<f64, 18, 18>::from_column_slice(&x[information..correlation]);
+        let sum = SVector::<f64, 18>::from_column_slice(&x[correlation..]);
+        let fading = forgetting * (1.0 - known.try_inverse().unwrap().trace() / 20.0);
+        rate[information..correlation].copy_from_slice((y.transpose() * y * weight - known * fading).as_slice());
+        rate[correlation..].copy_from_slice((y.transpose() * tau * weight - sum * fading).as_slice());
     };
     for n in 0..3000 {
         rk4.step(f64::from(n) * 5e-4, f64::from(n + 1) * 5e-4, &mut x, rhs);
     }
-    let prior = SMatrix::<f64, 18, 18>::identity() / p0;
-    let inverse = prior + SMatrix::<f64, 18, 18>::from_column_slice(&x[information..correlation]);
-    let batch = inverse.try_inverse().unwrap();
+    let batch = SMatrix::<f64, 18, 18>::from_column_slice(&x[information..correlation]).try_inverse().unwrap();
     let gain = Law::gain(&x[states..information]);
     assert!((gain - batch).amax() < 1e-9, "{}", (gain - batch).amax());
-    assert!(batch.diagonal().min() < 0.5 * p0, "data weigh more than the prior: {}", batch.diagonal());
-    let sum = SVector::<f64, 18>::from_column_slice(&x[correlation..]) + SVector::repeat(theta_start / p0);
+    let fades = forgetting > 0.0;
+    assert!(fades || batch.diagonal().min() < 0.5 * p0, "data weigh more than the prior: {}", batch.diagonal());
+    let sum = SVector::<f64, 18>::from_column_slice(&x[correlation..]);
     let (solved, found) = (batch * sum, SVector::<f64, 18>::from_column_slice(&x[estimates..states]));
     assert!((solved - found).amax() < 1e-8, "{}", (solved - found).amax());
     assert!((found - SVector::repeat(theta_start)).amax() > 0.5);
 }
 
-/// Without excitation gains would grow for ever; the limit on the trace holds them.
+/// Without excitation gains would grow for ever; the limit on the trace holds them. `(tr P)' = λ0 (1 − tr P / k0) tr P` is the logistic
+/// equation, and P keeps its shape.
 #[test]
 fn forgetting_without_excitation_is_bounded() {
     type Law = LeastSquaresAdaptation<CrsA465, f64, 3, 18>;
@@ -142,6 +154,11 @@ fn forgetting_without_excitation_is_bounded() {
             };
             law.derivative(&input, x, &mut [0.0; 18], rate);
         });
+        let (gain, t) = (Law::gain(&x), f64::from(n + 1) * 1e-3);
+        let expected = 3.0 / (1.0 + 2.0 * (-5.0 * t).exp());
+        for k in 0..18 {
+            assert!((gain[(k, k)] - k as f64 * expected).abs() < 1e-9 * (1.0 + k as f64), "{t} s, {k}: {gain}");
+        }
     }
     let trace = Law::gain(&x).trace();
     assert!((trace - 3.0 * 153.0).abs() < 1e-6 * trace, "{trace}");

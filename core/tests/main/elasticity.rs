@@ -8,7 +8,8 @@ use adaptarm_core::scenario::{
 
 fn elastic(stiffness: Vec<f64>, damping: Vec<f64>, inertia: Vec<f64>) -> ElasticityDocument {
     ElasticityDocument {
-        stiffness_nm_rad: stiffness,
+        stiffness_nm_rad: Some(stiffness),
+        compliance_rad_nm: None,
         damping_nms_rad: Some(damping),
         motor_inertia_kgm2: inertia,
         encoders: EncodersDocument::Motor,
@@ -69,6 +70,33 @@ fn stiff_joints_tend_to_rigid_ones_with_the_inverse_of_stiffness() {
     }
 }
 
+/// Without compliance an elastic joint is none: the same bits as the rigid arm's. With compliance it has those of the stiffness that
+/// is its inverse.
+#[test]
+fn joints_without_compliance_are_rigid_to_the_bit() {
+    for (id, motor) in [("pendulum", vec![0.1]), ("two_link", vec![0.3, 0.05]), ("crs_a465", vec![0.5, 3.0, 0.7])] {
+        let hash = |elasticity: Option<ElasticityDocument>| {
+            let mut document = ScenarioDocument::of_robot(id, SchemeDocument::SlotineLi(None));
+            (document.integration.duration_s, document.recording.samples) = (0.5, 100);
+            document.effects = Some(EffectsDocument { elasticity, ..Default::default() });
+            run(document).report.trajectory_hash
+        };
+        let compliant = |each: f64, encoders| ElasticityDocument {
+            stiffness_nm_rad: None,
+            compliance_rad_nm: Some(vec![each; motor.len()]),
+            encoders,
+            ..elastic(Vec::new(), vec![1.0; motor.len()], motor.clone())
+        };
+        let rigid = hash(None);
+        for encoders in [EncodersDocument::Motor, EncodersDocument::Link] {
+            assert_eq!(hash(Some(compliant(0.0, encoders))), rigid, "{id}");
+        }
+        let soft = hash(Some(compliant(1.0 / 4096.0, EncodersDocument::Motor)));
+        assert_ne!(soft, rigid, "{id}");
+        assert_eq!(soft, hash(Some(elastic(vec![4096.0; motor.len()], vec![1.0; motor.len()], motor.clone()))), "{id}");
+    }
+}
+
 /// At rest under gravity the spring is wound up: the motor's encoder does not see it, the link's does. But with the spring between motor and
 /// sensor the same feedback needs damping: with 1 N·m·s/rad the linearised loop has a pole at +1.4 1/s, with 5 none right of −8.
 #[test]
@@ -112,6 +140,20 @@ fn refusals_say_what_an_elastic_joint_may_be() {
         ),
         (r#"{"stiffness_nm_rad":[1e4,1e4,1e4],"motor_inertia_kgm2":[3,1,1]}"#, "motor_inertia_kgm2", "of the links"),
         (r#"{"stiffness_nm_rad":[1e4,1e4,1e4]}"#, "", "missing field `motor_inertia_kgm2`"),
+        (r#"{"motor_inertia_kgm2":[1,1,1]}"#, "", "needs stiffness_nm_rad or its inverse"),
+        (
+            r#"{"stiffness_nm_rad":[1,1,1],"compliance_rad_nm":[1,1,1],"motor_inertia_kgm2":[1,1,1]}"#,
+            "compliance_rad_nm",
+            "beside the stiffness",
+        ),
+        (r#"{"compliance_rad_nm":[0,0],"motor_inertia_kgm2":[1,1,1]}"#, "compliance_rad_nm", "2 numbers where 3"),
+        (r#"{"compliance_rad_nm":[0,1e-4,0],"motor_inertia_kgm2":[1,1,1]}"#, "compliance_rad_nm", "a 0 beside others"),
+        (r#"{"compliance_rad_nm":[2,1e-4,1],"motor_inertia_kgm2":[1,1,1]}"#, "compliance_rad_nm/0", "to 1"),
+        (
+            r#"{"compliance_rad_nm":[1e-8,1e-4,1e-4],"motor_inertia_kgm2":[1,1,1]}"#,
+            "compliance_rad_nm/0",
+            "steps of 0.001 s",
+        ),
     ] {
         let said = refusal(elasticity);
         let pointer = format!("/effects/elasticity/{pointer}").trim_end_matches('/').to_owned();

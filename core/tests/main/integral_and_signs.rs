@@ -1,8 +1,9 @@
 //! Integral action and signs of terms: nothing at zero strength, the right thing otherwise, no bits lost over a pause.
 
+use adaptarm_core::recording::Signal;
 use adaptarm_core::scenario::{
-    EffectsDocument, IntegralDocument, OutcomeKind, Run, Scenario, ScenarioDocument, Scheme, SchemeDocument,
-    SignsDocument, TrajectoryDocument, TrajectoryKind,
+    DisturbanceDocument, EffectsDocument, IntegralDocument, OutcomeKind, PdGains, Run, Scenario, ScenarioDocument,
+    Scheme, SchemeDocument, SignsDocument, TrajectoryDocument, TrajectoryKind,
 };
 
 fn run(document: ScenarioDocument) -> Run {
@@ -47,6 +48,24 @@ fn integral_action_removes_what_pd_leaves_at_rest() {
     let pid = run(document).report;
     let left = pid.q_end_rad[0] - 60_f64.to_radians();
     assert!(left.abs() < 1e-3, "{left}");
+}
+
+/// Without weight and friction, pushed from rest by d, with gains that put all three poles at −p: `e(t) = d t² e^{−pt} / 2I`.
+#[test]
+fn a_pushed_pid_is_its_linear_closed_form() {
+    let (inertia, push, p) = (0.25, 0.5, 4.0);
+    let gains = PdGains { k_p: vec![3.0 * p * p * inertia], k_d: vec![3.0 * p * inertia] };
+    let mut document = held(SchemeDocument::Pd(Some(gains)));
+    document.integral = Some(IntegralDocument { k_i: vec![p * p * p * inertia] });
+    document.plant.theta_scale = Some(vec![1.0, 0.0, 0.0, 0.0]);
+    (document.integration.duration_s, document.recording.samples) = (3.0, 300);
+    let disturbance = DisturbanceDocument { constant_nm: Some(vec![push]), ..Default::default() };
+    document.effects = Some(EffectsDocument { disturbance: Some(disturbance), ..Default::default() });
+    let run = run(document);
+    for (t, e) in run.recording.times_s().zip(run.recording.signal(Signal::Error, 0)) {
+        let expected = push * t * t * (-p * t).exp() / (2.0 * inertia);
+        assert!((e - expected).abs() < 1e-10, "{t} s: {e} for {expected}");
+    }
 }
 
 #[test]

@@ -166,6 +166,39 @@ fn with_drem_every_parameter_error_falls_by_itself() {
     }
 }
 
+/// `θ̃_i' = −r Δ²/(φ^{2P} + Δ²) θ̃_i`: one factor for all, which falls no faster than `e^{−rt}`.
+#[test]
+fn drem_makes_all_parameter_errors_fall_by_one_factor() {
+    let rate = 0.7;
+    let drem = AdaptationDocument {
+        kind: AdaptationKind::Drem,
+        rate_per_s: Some(rate),
+        excitation_floor: Some(3e-3),
+        ..Default::default()
+    };
+    let mut document = document("pendulum", Some(drem), 10.0);
+    // Smooth, so that the filter integrates exactly enough.
+    document.plant.friction.width_rad_s = 0.5;
+    document.integration.step_s = 2e-4;
+    let run = run(document);
+    let left = |k: usize| -> Vec<f64> {
+        let truth = run.report.theta_true[k];
+        let errors: Vec<_> = run.recording.signal(Signal::ThetaHat, k).map(|estimate| estimate - truth).collect();
+        errors.iter().map(|error| error / errors[0]).collect()
+    };
+    let first = left(0);
+    for k in 1..4 {
+        let apart = left(k).iter().zip(&first).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("θ{}: {apart}", k + 1);
+        assert!(apart < 1e-3, "θ{}: {apart}", k + 1);
+    }
+    for (t, share) in run.recording.times_s().zip(&first) {
+        assert!(*share >= (-rate * t).exp() - 1e-3, "{t} s: {share}");
+    }
+    let end = first[first.len() - 1];
+    assert!(end < 0.1, "{end}");
+}
+
 /// A stack is part of the state: a run of a sampled controller that was paused goes on with the same bits.
 #[test]
 fn a_stack_survives_a_pause() {

@@ -8,7 +8,8 @@ use adaptarm_core::metrics::peak;
 use adaptarm_core::recording::Signal;
 use adaptarm_core::robots::{Pendulum, ROBOTS, Robot, TwoLink};
 use adaptarm_core::scenario::{
-    OutcomeKind, ReadError, Run, Scenario, ScenarioDocument, Scheme, SchemeDocument, SideBySide, TrajectoryKind, preset,
+    OutcomeKind, ReadError, Run, Scenario, ScenarioDocument, Scheme, SchemeDocument, SideBySide, TrajectoryKind,
+    VelocityDocument, VelocityKind, preset,
 };
 use nalgebra::SVector;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -168,6 +169,21 @@ fn gains_left_out_are_the_robots_own() {
     assert_eq!(partial.document().trajectory.kind, TrajectoryKind::Fourier);
     let reread = read(&serde_json::to_string(partial.document()).unwrap()).unwrap();
     assert_eq!((reread.hash(), &reread), (partial.hash(), &partial));
+}
+
+/// An observer in the place of another scheme's velocity once had the A465's gains on every robot, three numbers where two were needed.
+#[test]
+fn an_observer_without_gains_has_the_robots_own() {
+    for id in OTHERS {
+        let mut other = document(id, Scheme::SlotineLi);
+        other.velocity = Some(VelocityDocument { kind: VelocityKind::Observer, ..Default::default() });
+        let other = Scenario::new(other).unwrap();
+        let own = Scenario::new(document(id, Scheme::Proposed)).unwrap();
+        let SchemeDocument::Proposed(Some(own)) = &own.document().scheme else { panic!("gains are filled in") };
+        let velocity = other.document().velocity.as_ref().unwrap();
+        assert_eq!((velocity.lambda_z.as_ref(), velocity.k_d.as_ref()), (Some(&own.lambda_z), Some(&own.k_d)), "{id}");
+        assert_eq!(other.run().report.outcome, OutcomeKind::Completed, "{id}");
+    }
 }
 
 #[test]

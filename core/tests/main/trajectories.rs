@@ -81,7 +81,11 @@ fn closed_forms_agree_with_dual_numbers() {
         assert_eq!((place.value, rate.value), (value, first));
         let [phase, rate, _] = chirp_phase([1.0, 9.0], 2.0, Dual::new(6.0 * s, 1.0));
         let [_, first, second] = chirp_phase([1.0, 9.0], 2.0, 6.0 * s);
+        let quintic = 10.0 * s.powi(3) - 15.0 * s.powi(4) + 6.0 * s.powi(5);
         assert!((phase.slope - first).abs() < 1e-13 && (rate.slope - second).abs() < 1e-12, "{s}");
+        // The quintic that leaves and arrives without velocity and acceleration; a frequency that rises and falls as a sine squared.
+        let frequency = 1.0 + 8.0 * (0.25 * TAU * 3.0 * s).sin().powi(2);
+        assert!((quintic - value).abs() < 1e-14 && (first - frequency).abs() < 1e-13, "{s}");
     }
     assert_eq!((minimum_jerk(0.0), minimum_jerk(1.0)), ([0.0; 3], [1.0, 0.0, 0.0]));
     let [_, lowest, _] = chirp_phase([1.0, 9.0], 2.0, 0.0);

@@ -23,12 +23,15 @@ pub struct ExampleView {
 }
 
 /// The manual's experiments.
-const EXAMPLES: [(&str, &str); 5] = [
+const EXAMPLES: [(&str, &str); 8] = [
     ("gains", include_str!("../../../docs/experiments/gains.json")),
     ("sensitivity", include_str!("../../../docs/experiments/sensitivity.json")),
     ("robustness", include_str!("../../../docs/experiments/robustness.json")),
     ("schemes", include_str!("../../../docs/experiments/schemes.json")),
     ("tuning", include_str!("../../../docs/experiments/tuning.json")),
+    ("pendulum", include_str!("../../../docs/experiments/pendulum.json")),
+    ("two_link", include_str!("../../../docs/experiments/two_link.json")),
+    ("replication", include_str!("../../../docs/replication/search.json")),
 ];
 
 /// The manual's experiments.

@@ -74,7 +74,7 @@ pub struct JobRequestForm {
 pub enum SpecForm {
     /// For a `study`.
     Study(StudySpec),
-    /// For a `sweep`, `monte_carlo`, `compare` or `tuning`.
+    /// For a `sweep`, `monte_carlo`, `compare`, `tuning` or `replication`.
     Experiment(crate::openapi::Experiment),
 }
 

@@ -1,12 +1,15 @@
 //! What an experiment leaves, on disk or over HTTP: the experiment with everything filled in, `summary.json`, a row per run as
-//! CSV and Parquet; of a tuning, the best scenario, its generations and its Pareto front.
+//! CSV and Parquet; of a tuning, the best scenario, its generations and its Pareto front; of a replication, its report.
 
 use super::Picture;
 use super::checkpoint::{replace, replace_by};
+use super::search_report;
 use crate::figures::PictureFormat;
 use crate::series::parquet;
 use adaptarm_core::experiments::replication::ReplicationSummary;
-use adaptarm_core::experiments::{Experiment, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
+use adaptarm_core::experiments::{
+    Experiment, ExperimentKind, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary,
+};
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -22,6 +25,34 @@ pub enum Found {
     Readings(Results, Box<ReplicationSummary>),
     /// Of a tuning: its search.
     Search(Box<Tuning>),
+}
+
+impl Found {
+    /// What the rows of an experiment that is no tuning say.
+    pub fn of(experiment: &Experiment, results: Results) -> Self {
+        if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+            Self::Readings(results, Box::new(summary))
+        } else {
+            let summary = Box::new(Summary::of(experiment, &results));
+            Self::Rows(results, summary)
+        }
+    }
+
+    /// The same, from a stored summary if it is of as many rows.
+    pub fn with(experiment: &Experiment, results: Results, stored: Option<&str>) -> Self {
+        let (stored, done) = (stored.unwrap_or_default(), results.len() as u64);
+        if experiment.kind() == ExperimentKind::Replication {
+            match serde_json::from_str::<ReplicationSummary>(stored) {
+                Ok(summary) if summary.done == done => Self::Readings(results, Box::new(summary)),
+                _ => Self::of(experiment, results),
+            }
+        } else {
+            match serde_json::from_str::<Summary>(stored) {
+                Ok(summary) if summary.done == done => Self::Rows(results, Box::new(summary)),
+                _ => Self::of(experiment, results),
+            }
+        }
+    }
 }
 
 /// A file of an experiment.
@@ -41,12 +72,17 @@ pub enum File {
     Generations,
     /// A tuning's Pareto front, as text.
     Front,
+    /// What a replication found, for people.
+    Report,
 }
 
 impl File {
     /// Those that an experiment has.
     pub fn of(experiment: &Experiment) -> &'static [Self] {
         match &experiment.document().tuning {
+            None if experiment.kind() == ExperimentKind::Replication => {
+                &[Self::Experiment, Self::Summary, Self::Report, Self::RunsCsv, Self::RunsParquet]
+            }
             None => &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet],
             Some(tuning) if tuning.objectives.is_empty() => {
                 &[Self::Experiment, Self::Summary, Self::Best, Self::Generations]
@@ -65,6 +101,7 @@ impl File {
             Self::Best => "best.json",
             Self::Generations => "generations.csv",
             Self::Front => "front.csv",
+            Self::Report => "report.md",
         }
     }
 
@@ -73,6 +110,7 @@ impl File {
         match self {
             Self::Experiment | Self::Summary | Self::Best => "application/json",
             Self::RunsCsv | Self::Generations | Self::Front => "text/csv; charset=utf-8; header=present",
+            Self::Report => "text/markdown; charset=utf-8",
             Self::RunsParquet => "application/vnd.apache.parquet",
         }
     }
@@ -99,7 +137,9 @@ impl File {
                 Some(front) => front_table(front, &tuning.summary(experiment).variables).into_bytes(),
                 None => return Ok(None),
             },
-            (Self::RunsCsv | Self::RunsParquet, Found::Search(_))
+            (Self::Report, Found::Readings(_, summary)) => search_report::report(experiment, summary)?.into_bytes(),
+            (Self::RunsCsv | Self::RunsParquet | Self::Report, Found::Search(_))
+            | (Self::Report, Found::Rows(..))
             | (Self::Best | Self::Generations | Self::Front, Found::Rows(..) | Found::Readings(..)) => {
                 return Ok(None);
             }

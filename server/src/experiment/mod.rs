@@ -116,19 +116,19 @@ fn lay_out(
     })?;
     bar.finish_and_clear();
     checkpoint.save(Current::Rows(&results))?;
-    if let Some(summary) = ReplicationSummary::of(experiment, &results) {
-        let summary = Box::new(summary);
-        if let Some(folder) = folder {
-            files::write(experiment, &Found::Readings(results, summary.clone()), folder)?;
-            search_report::write(experiment, &summary, folder)?;
-        }
-        return Ok(Outcome::Replication(summary));
-    }
-    let summary = Box::new(Summary::of(experiment, &results));
+    finish(experiment, Found::of(experiment, results), folder)
+}
+
+/// Writes what was found, and tells it.
+fn finish(experiment: &Experiment, found: Found, folder: Option<&Path>) -> Result<Outcome> {
     if let Some(folder) = folder {
-        files::write(experiment, &Found::Rows(results, summary.clone()), folder)?;
+        files::write(experiment, &found, folder)?;
     }
-    Ok(Outcome::Summary(summary))
+    Ok(match found {
+        Found::Rows(_, summary) => Outcome::Summary(summary),
+        Found::Readings(_, summary) => Outcome::Replication(summary),
+        Found::Search(tuning) => Outcome::Tuning(Box::new(tuning.summary(experiment))),
+    })
 }
 
 /// Generation after generation.
@@ -160,11 +160,7 @@ fn search(
     }
     bar.finish_and_clear();
     checkpoint.save(Current::Tuning(&tuning))?;
-    let summary = tuning.summary(experiment);
-    if let Some(folder) = folder {
-        files::write(experiment, &Found::Search(Box::new(tuning)), folder)?;
-    }
-    Ok(Outcome::Tuning(Box::new(summary)))
+    finish(experiment, Found::Search(Box::new(tuning)), folder)
 }
 
 /// Makes the runs of all chunks and hands their rows over, on this thread, as they come; the first failure ends everything.

@@ -2,7 +2,7 @@
 
 use super::Found;
 use crate::figures::{FigureError, PictureFormat, png};
-use adaptarm_core::experiments::{Experiment, Summary};
+use adaptarm_core::experiments::Experiment;
 use adaptarm_core::figures::{ExperimentFigure, Shown, experiment_svg};
 
 /// A figure of an experiment in a format.
@@ -29,11 +29,7 @@ impl Picture {
     /// Its bytes, of this metric where it shows one. Takes a processor milliseconds as SVG and a tenth of a second as PNG.
     pub fn bytes(self, experiment: &Experiment, found: &Found, metric: Option<&str>) -> Result<Vec<u8>, FigureError> {
         let svg = match found {
-            // It has none of these figures; its own stand in its report.
-            Found::Readings(results, _) => {
-                let summary = Summary::of(experiment, results);
-                experiment_svg(self.figure, experiment, Shown::Rows(results, &summary), metric)?
-            }
+            Found::Readings(_, summary) => experiment_svg(self.figure, experiment, Shown::Readings(summary), metric)?,
             Found::Rows(results, summary) => {
                 experiment_svg(self.figure, experiment, Shown::Rows(results, summary), metric)?
             }

@@ -1,65 +1,18 @@
-//! The report of a replication search: `report.md` for people, `entries.svg` and `unknowns.svg`.
+//! The report of a replication search for people, `report.md`.
 //!
 //! Search space and distance stand before results; nothing here decides anything.
 
-use super::checkpoint::replace;
 use adaptarm_core::experiments::Experiment;
 use adaptarm_core::experiments::replication::{EntrySummary, ReadingSummary, ReplicationDocument, ReplicationSummary};
-use adaptarm_core::figures::{DotPlot, DotRow, dot_plot};
 use anyhow::{Context, Result};
 use std::fmt::Write as _;
-use std::path::Path;
 
-/// Writes report and figures.
-pub(super) fn write(experiment: &Experiment, summary: &ReplicationSummary, folder: &Path) -> Result<()> {
+/// The report; its figures are files beside it.
+pub(super) fn report(experiment: &Experiment, summary: &ReplicationSummary) -> Result<String> {
     let document = experiment.document().replication.as_ref().context("a replication has its section")?;
-    replace(&folder.join("entries.svg"), dot_plot(&entries_plot(summary))?.as_bytes())?;
-    replace(&folder.join("unknowns.svg"), dot_plot(&unknowns_plot(summary))?.as_bytes())?;
     let mut text = String::new();
     compose(experiment, document, summary, &mut text)?;
-    replace(&folder.join("report.md"), text.as_bytes())
-}
-
-fn entries_plot(summary: &ReplicationSummary) -> DotPlot<'static> {
-    let mut groups: Vec<(String, Vec<DotRow>)> = Vec::new();
-    for (n, entry) in summary.entries.iter().enumerate() {
-        let title = format!("{}: {}", entry.place, scheme(entry));
-        if groups.last().is_none_or(|(last, _)| *last != title) {
-            groups.push((title, Vec::new()));
-        }
-        let row = DotRow {
-            label: format!("{}, paper {}", entry.symbol, entry.paper),
-            span: entry.plausible_ratio,
-            filled: summary.best.first().map(|best| best.ours[n] / entry.paper),
-            open: summary.first.as_ref().map(|first| first.ours[n] / entry.paper),
-        };
-        if let Some((_, rows)) = groups.last_mut() {
-            rows.push(row);
-        }
-    }
-    DotPlot {
-        axis: "ours / paper",
-        legend: ["plausible readings", "best reading", "this program's usual reading"],
-        groups,
-        reference: 1.0,
-    }
-}
-
-fn unknowns_plot(summary: &ReplicationSummary) -> DotPlot<'static> {
-    let groups = summary.unknowns.iter().map(|unknown| {
-        let row = |option: &adaptarm_core::experiments::replication::OptionSummary| DotRow {
-            label: option.name.clone(),
-            filled: option.distance,
-            ..DotRow::default()
-        };
-        (unknown.name.clone(), unknown.options.iter().map(row).collect())
-    });
-    DotPlot {
-        axis: "distance of the best reading with this option (typical factor)",
-        legend: ["", "best reading with this option", ""],
-        groups: groups.collect(),
-        reference: summary.best.first().map_or(1.0, |best| best.distance),
-    }
+    Ok(text)
 }
 
 fn scheme(entry: &EntrySummary) -> &'static str {

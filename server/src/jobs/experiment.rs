@@ -1,4 +1,4 @@
-//! The job kinds `sweep`, `monte_carlo`, `compare` and `tuning`: an experiment document within this server's limits, what its
+//! The job kinds `sweep`, `monte_carlo`, `compare`, `tuning` and `replication`: an experiment document within this server's limits, what its
 //! parts are, and what their rows come to. Everything that is computed here is the core's.
 
 use super::compute::Failure;
@@ -10,6 +10,7 @@ use crate::document::parse;
 use crate::metrics::FailureReason;
 use crate::packed;
 use adaptarm_core::VERSION;
+use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{
     Experiment, ExperimentDocument, ExperimentKind, PlannedRun, Results, Row, Summary, Tuning, TuningSummary,
 };
@@ -25,14 +26,14 @@ const TOLD_GROUPS: usize = 64;
 /// Metrics that it tells of.
 const TOLD_METRICS: [&str; 4] = ["index_e_deg", "index_de_deg_s", "tau_peak_nm", "settling_e_s"];
 
-/// The job that does such an experiment; a replication search is the command line's alone.
-fn job_kind(kind: ExperimentKind) -> Option<JobKind> {
+/// The job that does such an experiment.
+fn job_kind(kind: ExperimentKind) -> JobKind {
     match kind {
-        ExperimentKind::Sweep => Some(JobKind::Sweep),
-        ExperimentKind::MonteCarlo => Some(JobKind::MonteCarlo),
-        ExperimentKind::Compare => Some(JobKind::Compare),
-        ExperimentKind::Tuning => Some(JobKind::Tuning),
-        ExperimentKind::Replication => None,
+        ExperimentKind::Sweep => JobKind::Sweep,
+        ExperimentKind::MonteCarlo => JobKind::MonteCarlo,
+        ExperimentKind::Compare => JobKind::Compare,
+        ExperimentKind::Tuning => JobKind::Tuning,
+        ExperimentKind::Replication => JobKind::Replication,
     }
 }
 
@@ -52,17 +53,12 @@ impl ExperimentJob {
         limits: &Limits,
     ) -> Result<Self, StudyError> {
         let found = job_kind(document.kind);
-        if found != Some(kind) {
-            let message = match found {
-                Some(found) => format!("is {}, but the job's kind is {}", found.id(), kind.id()),
-                None => "is done by the command line alone: adaptarm experiment FILE".to_owned(),
-            };
+        if found != kind {
+            let message = format!("is {}, but the job's kind is {}", found.id(), kind.id());
             return Err(ScenarioError::new(format!("{pointer}/kind"), Problem::Conflict { message }).into());
         }
         let experiment = Experiment::new(document).map_err(|error| error.within(pointer))?;
-        let bases = experiment.base_scenarios();
-        let steps = bases.map(|scenario| scenario.settings().steps()).max().unwrap_or(0);
-        let steps = steps.saturating_mul(experiment.most_runs());
+        let steps = experiment.steps_per_run().saturating_mul(experiment.most_runs());
         check_total(pointer, "integration steps", steps, limits.steps_per_job)?;
         Ok(Self { experiment, steps })
     }
@@ -94,7 +90,7 @@ impl ExperimentJob {
 /// The next runs of an experiment, cut into parts.
 fn shards(experiment: &Experiment, runs: u64) -> Vec<Shard> {
     let cost_us = experiment.base_scenarios().map(plan::cost_us).fold(0.0, f64::max);
-    plan::plan_runs(runs, experiment.base_scenarios().len() as u64, cost_us)
+    plan::plan_runs(runs, experiment.base_scenarios().len() as u64, cost_us, experiment.columns().names().len())
 }
 
 /// An experiment with where its search stands: what is needed to plan the runs of a step.
@@ -191,13 +187,18 @@ fn sum_up(experiment: &Experiment, step: i64, rows: Vec<Row>) -> Result<Folded, 
     for row in rows {
         results.insert(experiment, row).map_err(|error| (FailureReason::Storage, error.to_string()))?;
     }
-    let summary = Summary::of(experiment, &results);
-    let complete = Some(summary.done) == experiment.runs();
+    let (digest, summary) = if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+        (digest_of_replication(&summary), text(&summary))
+    } else {
+        let summary = Summary::of(experiment, &results);
+        (digest(&summary), text(&summary))
+    };
+    let complete = Some(results.len() as u64) == experiment.runs();
     Ok(Folded {
         step,
         rows: results.len() as i64,
-        digest: digest(&summary).to_string(),
-        summary: text(&summary),
+        digest: digest.to_string(),
+        summary,
         state: None,
         candidates: None,
         next: if complete { NextStep::End } else { NextStep::Rest },
@@ -221,6 +222,13 @@ fn digest(summary: &Summary) -> Value {
     json!({
         "runs": summary.runs, "done": summary.done, "confidence": summary.confidence,
         "groups": groups.collect::<Vec<_>>(), "rankings": rankings,
+    })
+}
+
+fn digest_of_replication(summary: &ReplicationSummary) -> Value {
+    json!({
+        "runs": summary.runs, "done": summary.done, "readings": summary.readings, "complete": summary.complete,
+        "best": summary.best.first(),
     })
 }
 

@@ -52,6 +52,8 @@ pub enum JobKind {
     Compare,
     /// An experiment that searches the best values.
     Tuning,
+    /// An experiment that searches what the paper leaves unsaid.
+    Replication,
     /// The variants of an attempt in a classroom. Nobody can ask for such a job, nor look at one.
     #[serde(skip)]
     Grade,
@@ -59,7 +61,8 @@ pub enum JobKind {
 
 impl JobKind {
     /// Every kind that can be asked for.
-    pub const ALL: [Self; 5] = [Self::Study, Self::Sweep, Self::MonteCarlo, Self::Compare, Self::Tuning];
+    pub const ALL: [Self; 6] =
+        [Self::Study, Self::Sweep, Self::MonteCarlo, Self::Compare, Self::Tuning, Self::Replication];
 
     /// Its name over HTTP and in the database.
     pub fn id(self) -> &'static str {
@@ -70,6 +73,7 @@ impl JobKind {
             Self::MonteCarlo => "monte_carlo",
             Self::Compare => "compare",
             Self::Tuning => "tuning",
+            Self::Replication => "replication",
         }
     }
 

@@ -60,12 +60,16 @@ pub fn plan(costs: impl IntoIterator<Item = Option<f64>>) -> Vec<Shard> {
 /// Most computing time of a shard that fills the lanes of vector instructions, µs.
 const FULL_LANES_US: f64 = 30e6;
 
+/// What keeping a number of a run costs, µs; a part of short runs then still has less than ten megabytes of rows.
+const NUMBER_COST_US: f64 = 1.0;
+
 /// Fewest parts that runs are cut into where each may be computed on its own thread.
 const PARTS: u64 = 4;
 
-/// Shards over runs of an experiment, `cost_us` each, whose neighbours are of `bases` kinds that do not run beside each other:
-/// full lanes of each kind where that does not take long.
-pub fn plan_runs(runs: u64, bases: u64, cost_us: f64) -> Vec<Shard> {
+/// Shards over runs of an experiment, `cost_us` each with so many numbers `kept`, whose neighbours are of `bases` kinds that do
+/// not run beside each other: full lanes of each kind where that does not take long.
+pub fn plan_runs(runs: u64, bases: u64, cost_us: f64, kept: usize) -> Vec<Shard> {
+    let cost_us = cost_us + NUMBER_COST_US * kept as f64;
     let full = WIDEST * bases.max(1);
     let fitting = (SHARD_TARGET_US / cost_us.max(1.0)) as u64;
     let wanted = if fitting >= full {
@@ -96,7 +100,7 @@ mod tests {
     #[test]
     fn runs_fill_lanes_and_are_all_there() {
         for (runs, bases, cost_us) in [(1, 1, 1.0), (7, 3, 1e4), (10_000, 1, 21e3), (10_000, 3, 21e3), (9, 2, 1e9)] {
-            let shards = plan_runs(runs, bases, cost_us);
+            let shards = plan_runs(runs, bases, cost_us, 48);
             let mut next = 0;
             for shard in &shards {
                 assert!(shard.first == next && shard.count > 0, "{runs} {bases} {cost_us}");
@@ -104,9 +108,9 @@ mod tests {
             }
             assert_eq!(next as u64, runs);
         }
-        assert_eq!(plan_runs(10_000, 1, 21e3)[0].count, 40);
-        assert_eq!(plan_runs(10_000, 3, 21e3)[0].count, 24);
-        assert_eq!(plan_runs(3, 1, 1e9)[0].count, 1);
+        assert_eq!(plan_runs(10_000, 1, 21e3, 48)[0].count, 40);
+        assert_eq!(plan_runs(10_000, 3, 21e3, 48)[0].count, 24);
+        assert_eq!(plan_runs(3, 1, 1e9, 48)[0].count, 1);
     }
 
     #[test]

@@ -55,6 +55,8 @@ of_core! {
     ExperimentSummary = experiments::Summary;
     /// What a tuning found.
     TuningSummary = experiments::TuningSummary;
+    /// What a replication found.
+    ReplicationSummary = experiments::replication::ReplicationSummary;
     /// The report on one scenario.
     Report = core::Report;
     /// What the samples of one scenario tell of excitation, stability and energy.
@@ -122,6 +124,8 @@ pub enum AnySummary {
     Experiment(ExperimentSummary),
     /// Of a tuning.
     Tuning(TuningSummary),
+    /// Of a replication.
+    Replication(ReplicationSummary),
 }
 
 /// What the API offers.

@@ -8,7 +8,7 @@ use crate::error::Problem;
 use crate::experiment::{File, Found, Picture};
 use crate::jobs::{ExperimentRow, Job, JobState, StoreError, read_experiment, read_rows, read_search};
 use crate::state::AppState;
-use adaptarm_core::experiments::{Experiment, Results, Summary};
+use adaptarm_core::experiments::{Experiment, Results};
 use adaptarm_core::figures::{ExperimentFigure, experiment_metrics};
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -125,10 +125,7 @@ async fn found(
         for row in read_rows(&packed)? {
             results.insert(&experiment, row).map_err(failed)?;
         }
-        let stored: Option<Summary> = row.summary.as_deref().and_then(|text| serde_json::from_str(text).ok());
-        let current = stored.filter(|summary| summary.done == results.len() as u64);
-        let summary = current.unwrap_or_else(|| Summary::of(&experiment, &results));
-        Ok(Arc::new(Found::Rows(results, Box::new(summary))))
+        Ok(Arc::new(Found::with(&experiment, results, row.summary.as_deref())))
     })
     .await
 }

@@ -1,6 +1,7 @@
 //! Experiments as jobs: what they give is what the core gives, whoever asks and however; what is wrong is said with its place.
 
 use crate::support::{App, JOBS, short};
+use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, Results, Summary};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -38,6 +39,27 @@ fn tuning() -> Value {
             "objective": [{ "metric": "index_e_deg", "weight": 1 }],
             "plants": { "count": 3, "fields": [field], "validation": 4 },
             "evaluations": 25,
+        },
+    })
+}
+
+/// Two readings of each of two ways to begin, with three steps of integration for one scheme.
+fn replication() -> Value {
+    let bases: Vec<_> =
+        ["proposed", "tang_arteaga", "slotine_li"].map(|it| json!({ "name": it, "scenario": short(it) })).into();
+    let rest = json!({ "initial": { "velocity": "rest" } });
+    let step = |step_s: f64| json!({ "integration": { "step_s": step_s } });
+    json!({
+        "format": "adaptarm.experiment/1", "kind": "replication", "bases": bases,
+        "replication": {
+            "unknowns": [
+                { "name": "start", "options": [{ "name": "moving" }, { "name": "at rest", "change": rest }] },
+                { "name": "step", "schemes": ["slotine_li"], "options": [
+                    { "name": "usual" }, { "name": "half", "change": step(0.0005) }, { "name": "tenth", "change": step(0.0001) },
+                ] },
+            ],
+            "horizons_s": [short("proposed")["integration"]["duration_s"]],
+            "windows": [{ "name": "whole" }, { "name": "second half", "from": 0.5 }],
         },
     })
 }
@@ -142,6 +164,49 @@ async fn a_tuning_goes_step_by_step_to_what_the_core_finds() {
     let stream = String::from_utf8(app.get(&format!("{job}/events")).await.body).unwrap();
     assert_eq!(stream.matches("event: partial").count(), 1);
     assert!(stream.contains(&format!("\"candidates\":{}", summary.candidates)), "{stream}");
+}
+
+#[tokio::test]
+async fn a_replication_finds_what_the_core_finds_and_reports_it() {
+    let app = App::new().await;
+    let job = submit(&app, &replication()).await;
+    let (experiment, results) = in_a_row(&replication());
+    let summary = ReplicationSummary::of(&experiment, &results).unwrap();
+    assert_eq!((results.len(), summary.readings, summary.complete), (2 + 2 + 6, 12, 12));
+    let view = app.wait(&job, &["succeeded"]).await;
+    assert_eq!((&view["kind"], &view["scenarios_done"]), (&json!("replication"), &json!(10)));
+    let said = app.get(&format!("{job}/result")).await.json();
+    assert_eq!(said["summary"], serde_json::to_value(&summary).unwrap());
+    assert_eq!((&said["figures"], &said["metrics"]), (&json!(["entries", "unknowns"]), &json!([])));
+    let file = async |name: &str| app.get(&format!("{job}/result/files/{name}")).await;
+    assert_eq!(String::from_utf8(file("summary.json").await.body).unwrap(), text(&summary));
+    let report = file("report.md").await;
+    assert_eq!(report.header("content-type"), "text/markdown; charset=utf-8");
+    assert!(String::from_utf8(report.body).unwrap().contains("12 readings, from 10 simulations"));
+    assert_eq!(String::from_utf8(file("runs.csv").await.body).unwrap().lines().count(), 11);
+    for figure in ["entries.svg", "unknowns.svg"] {
+        assert!(app.get(&format!("{job}/result/figures/{figure}")).await.body.starts_with(b"<svg width=\"900\""));
+    }
+    let problem = app.get(&format!("{job}/result/figures/boxes.svg")).await.problem(404, "/problems/http");
+    assert_eq!(problem["allowed"], "entries.svg, entries.png, unknowns.svg, unknowns.png");
+    let stream = String::from_utf8(app.get(&format!("{job}/events")).await.body).unwrap();
+    assert!(stream.contains("\"readings\":12"), "{stream}");
+}
+
+/// An option may make runs longer than the bases': what it may come to is what counts.
+#[tokio::test]
+async fn a_replication_counts_the_steps_of_its_options() {
+    let app = App::new().await;
+    let mut long = replication();
+    for base in long["bases"].as_array_mut().unwrap() {
+        base["scenario"]["integration"]["duration_s"] = json!(10_000);
+    }
+    long["replication"]["horizons_s"] = json!([10_000]);
+    // Ten runs of up to 10⁸ steps are within 10¹⁰; with ten times as many of them they are not.
+    let options: Vec<_> = (0..11).map(|n| json!({ "name": n.to_string() })).collect();
+    long["replication"]["unknowns"].as_array_mut().unwrap().push(json!({ "name": "nothing", "options": options }));
+    let problem = app.post(JOBS, request(&long)).await.problem(422, "/problems/too-much");
+    assert_eq!(problem["pointer"], "/spec", "{problem}");
 }
 
 #[tokio::test]

@@ -29,7 +29,7 @@ export class ExperimentFigure {
     this.node.append(element("figcaption", {}, label), this.#missing, box);
   }
 
-  /** Shows one of `figures`, of a metric called `name`; anew when `version` changes. */
+  /** Shows one of `figures`, of a metric or of what is called `name`; anew when `version` changes. */
   show(figures, metric, name, version) {
     const before = this.#choice.value;
     if ([...this.#choice.options].map(({ value }) => value).join() !== figures.join()) {
@@ -64,6 +64,6 @@ export class ExperimentFigure {
     const title = texts.figures[this.#choice.value] ?? this.#choice.value;
     // The address of a picture that has changed must be another one for the browser to ask again.
     const path = this.path("svg");
-    this.#picture.load(path, `${path} ${this.#version}`, texts.figureAlt(title, this.#metric ? this.#name : texts.search));
+    this.#picture.load(path, `${path} ${this.#version}`, texts.figureAlt(title, this.#name));
   }
 }

@@ -1,4 +1,4 @@
-// What an experiment says as tables: a row per base and condition, or the search of a tuning.
+// What an experiment says as tables: a row per base and condition, the search of a tuning, or the readings of a replication.
 
 import { element } from "../dom.js";
 import { formatNumber } from "../format.js";
@@ -19,6 +19,12 @@ function table(caption, heads, rows) {
     element("thead", {}, element("tr", {}, head)),
     element("tbody", {}, rows),
   );
+}
+
+/** Facts by their names. */
+function list(facts) {
+  const fact = ([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value));
+  return element("dl", { class: "job-facts" }, facts.map(fact));
 }
 
 /** A metric of every base under every condition. */
@@ -80,8 +86,40 @@ export function searchTable(summary) {
     texts.better(validation.better.count, validation.better.of),
   ];
   return [
-    element("dl", { class: "job-facts" }, facts.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)))),
+    list(facts),
     ...(said ? [element("p", { class: "validation" }, said.join(" "))] : []),
     table(texts.search, [[texts.variable], [texts.startValue, true], [texts.bestValue, true]], summary.variables.map(row)),
+  ];
+}
+
+/** The readings that a replication found: the best beside the usual one, and what they make of the paper's claims. */
+export function readingsTable(summary) {
+  const facts = [
+    [texts.simulations, `${summary.done} / ${summary.runs}`],
+    [texts.readings, String(summary.readings)],
+    [texts.readingsComplete, String(summary.complete)],
+    [texts.plausible, String(summary.plausible)],
+  ];
+  const [best] = summary.best;
+  const both = [best, summary.first];
+  const row = (name, cell) => element("tr", {}, element("th", { scope: "row" }, name), both.map((reading) => number(reading ? cell(reading) : "—")));
+  const rows = [
+    row(texts.distance, (reading) => formatNumber(reading.distance)),
+    row(texts.reached(summary.entries.length), (reading) => String(reading.reached)),
+    ...summary.unknowns.map(({ name }, n) => row(name, (reading) => reading.options[n])),
+  ];
+  const verdict = (holds) => (holds ? texts.yes : texts.no);
+  const claim = ({ claim: said, at_best: atBest, plausible }) =>
+    element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, said),
+      element("td", {}, typeof atBest === "boolean" ? verdict(atBest) : "—"),
+      number(`${plausible.holds} / ${summary.plausible}`),
+    );
+  return [
+    list(facts),
+    table(texts.nearest, [[texts.unknown], [texts.bestReading, true], [texts.usualReading, true]], rows),
+    table(texts.claims, [[texts.claim], [texts.holdsAtBest], [texts.holdsIn, true]], summary.claims.map(claim)),
   ];
 }

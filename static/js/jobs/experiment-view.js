@@ -4,7 +4,7 @@ import { isFinal, readResult } from "../api.js";
 import { element } from "../dom.js";
 import { buildExperimentDownloads } from "./experiment-downloads.js";
 import { ExperimentFigure } from "./experiment-figure.js";
-import { groupsTable, searchTable } from "./experiment-tables.js";
+import { groupsTable, readingsTable, searchTable } from "./experiment-tables.js";
 import { texts } from "./experiment-texts.js";
 import { showError } from "./message.js";
 import { openDocument } from "./open.js";
@@ -75,7 +75,8 @@ export class ExperimentView {
     this.#title.textContent = partly ? texts.sofar(summary.done, summary.runs) : texts.results;
     this.#note.hidden = ready;
     this.#note.textContent = isSearch ? texts.searchNotYet : texts.nothingYet;
-    this.#metric.hidden = !ready || isSearch;
+    const isReplication = this.#job?.kind === "replication";
+    this.#metric.hidden = !ready || isSearch || isReplication;
     this.#figure.node.hidden = !ready || figures.length === 0;
     this.#open.hidden = !(isSearch && ready && summary.best);
     if (!ready) {
@@ -84,9 +85,21 @@ export class ExperimentView {
     this.#offer(metrics.filter((metric) => isSearch || hasNumbers(summary, metric)));
     const metric = this.#choice.value;
     const name = texts.metrics[metric] ?? metric;
-    this.#numbers.replaceChildren(...(isSearch ? searchTable(summary) : groupsTable(summary, metric, name)));
-    this.#figure.show(figures, isSearch ? null : metric, name, version(summary));
+    this.#numbers.replaceChildren(...this.#tables(summary, metric, name));
+    const about = { tuning: texts.search, replication: texts.replication }[this.#job?.kind];
+    this.#figure.show(figures, about ? null : metric, about ?? name, version(summary));
     this.#showDownloads();
+  }
+
+  #tables(summary, metric, name) {
+    switch (this.#job?.kind) {
+      case "tuning":
+        return searchTable(summary);
+      case "replication":
+        return readingsTable(summary);
+      default:
+        return groupsTable(summary, metric, name);
+    }
   }
 
   /** The metrics to choose from, the chosen one kept. */

@@ -1,6 +1,7 @@
 //! One experiment, one result: by command line or by HTTP, on one thread or two, in lanes or run by run, undisturbed or killed
 //! again and again. Compared to the byte, in all files.
 
+use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, Results, Row, Summary};
 use adaptarm_tests::client::{Client, surely};
 use adaptarm_tests::postgres::Cluster;
@@ -37,7 +38,7 @@ fn arms() -> Value {
 }
 
 /// One of each kind. The comparison's runs are long enough to be interrupted themselves.
-fn documents(size: u32) -> [Value; 4] {
+fn documents(size: u32) -> [Value; 5] {
     let document = |kind: &str, bases: Value, section: Value| {
         let mut document = json!({ "format": "adaptarm.experiment/1", "kind": kind, "seed": 7, "bases": bases });
         document[kind] = section;
@@ -54,7 +55,19 @@ fn documents(size: u32) -> [Value; 4] {
         "variables": [variable], "objective": [{ "metric": "index_e_deg", "weight": 1 }],
         "plants": { "count": 4, "fields": [arms()], "validation": 8 }, "evaluations": 20 * size, "restarts": 2,
     });
+    let widths: Vec<_> = (1..=4 * size)
+        .map(|n| {
+            let friction = json!({ "friction": { "width_rad_s": 0.01 * f64::from(n) } });
+            json!({ "name": format!("0.01 · {n} rad/s"), "change": { "plant": friction } })
+        })
+        .collect();
+    let replication = json!({
+        "unknowns": [{ "name": "width", "options": widths }], "horizons_s": [60, 30],
+        "windows": [{ "name": "whole" }, { "name": "end", "from": 0.5 }], "units": ["labelled", "radians"],
+    });
+    let schemes = ["proposed", "tang_arteaga", "slotine_li"].map(|scheme| base(scheme, 60.0));
     [
+        document("replication", json!(schemes), replication),
         document(
             "monte_carlo",
             json!([base("proposed", 2.0), base("slotine_li", 2.0)]),
@@ -108,12 +121,16 @@ fn run_by_run(document: &Value) -> Result<Option<String>> {
     let mut results = Results::new();
     for run in experiment.plan(0..runs) {
         let row: Row = match run.scenario {
-            Ok(scenario) => experiment.row(run.index, &scenario.run().report),
+            Ok(scenario) => experiment.row(run.index, &scenario.run()),
             Err(why) => experiment.refused(run.index, &why),
         };
         results.insert(&experiment, row)?;
     }
-    Ok(Some(serde_json::to_string_pretty(&Summary::of(&experiment, &results))? + "\n"))
+    let summary = match ReplicationSummary::of(&experiment, &results) {
+        Some(summary) => serde_json::to_string_pretty(&summary),
+        None => serde_json::to_string_pretty(&Summary::of(&experiment, &results)),
+    };
+    Ok(Some(summary? + "\n"))
 }
 
 /// Whether a server's files are those of the command line, all but the checkpoint.

@@ -30,6 +30,8 @@ pub(in crate::experiments) struct Search {
     /// In samples.
     pub(super) horizons: Vec<usize>,
     pub(super) windows: Vec<WindowDocument>,
+    /// Most steps that an option gives a base's run.
+    pub steps: u64,
 }
 
 impl Search {

@@ -17,10 +17,10 @@ pub(super) fn search(document: &ReplicationDocument, bases: &[Base]) -> Result<S
     if !document.unknowns.is_empty() {
         check_count("/replication/unknowns", document.unknowns.len(), LIMITS.unknowns, "unknowns")?;
     }
-    let mut unknowns = Vec::new();
+    let (mut unknowns, mut steps) = (Vec::new(), 0);
     for (n, it) in document.unknowns.iter().enumerate() {
         let earlier = document.unknowns[..n].iter().map(|unknown| unknown.name.as_str());
-        unknowns.push(check_unknown(it, &format!("/replication/unknowns/{n}"), earlier, bases)?);
+        unknowns.push(check_unknown(it, &format!("/replication/unknowns/{n}"), earlier, bases, &mut steps)?);
     }
     let horizons = horizons(document, bases)?;
     check_windows(document, &horizons)?;
@@ -30,7 +30,7 @@ pub(super) fn search(document: &ReplicationDocument, bases: &[Base]) -> Result<S
     }
     check_range("/replication/reached_factor", document.reached_factor, LIMITS.factor, "")?;
     check_range("/replication/plausible_factor", document.plausible_factor, LIMITS.factor, "")?;
-    let search = Search { unknowns, horizons, windows: document.windows.clone() };
+    let search = Search { unknowns, horizons, windows: document.windows.clone(), steps };
     let cuts = (search.horizons.len() * search.windows.len() * document.units.len()) as u64;
     let numbers = search.horizons.len() * (6 * search.windows.len() + HorizonFindings::names().len());
     for (what, count, most) in [
@@ -67,6 +67,7 @@ fn check_unknown<'a>(
     at: &str,
     earlier: impl Iterator<Item = &'a str>,
     bases: &[Base],
+    steps: &mut u64,
 ) -> Result<Unknown, ScenarioError> {
     check_name(&format!("{at}/name"), &it.name, earlier)?;
     let concerns = concerns(it).map_err(|other| {
@@ -80,14 +81,15 @@ fn check_unknown<'a>(
     for (n, option) in it.options.iter().enumerate() {
         let at = format!("{at}/options/{n}");
         check_name(&format!("{at}/name"), &option.name, it.options[..n].iter().map(|option| option.name.as_str()))?;
-        check_change(option, &at, concerns, bases)?;
+        *steps = (*steps).max(check_change(option, &at, concerns, bases)?);
     }
     Ok(Unknown { concerns, options: it.options.iter().map(|option| option.change.clone()).collect() })
 }
 
-/// An option makes an allowed scenario of every base that it concerns.
-fn check_change(option: &OptionDocument, at: &str, concerns: [bool; 3], bases: &[Base]) -> Result<(), ScenarioError> {
-    let Some(change) = &option.change else { return Ok(()) };
+/// An option makes an allowed scenario of every base that it concerns; the most steps of one.
+fn check_change(option: &OptionDocument, at: &str, concerns: [bool; 3], bases: &[Base]) -> Result<u64, ScenarioError> {
+    let Some(change) = &option.change else { return Ok(0) };
+    let mut steps = 0;
     let at = format!("{at}/change");
     if !matches!(change, Value::Map(_)) {
         return Err(conflict(at, "is no object with members of a scenario".to_owned()));
@@ -95,9 +97,10 @@ fn check_change(option: &OptionDocument, at: &str, concerns: [bool; 3], bases: &
     for (base, _) in bases.iter().zip(concerns).filter(|(_, concerned)| *concerned) {
         let mut tree = base.tree.clone();
         tree.merge(change);
-        changed(&tree, base).map_err(|error| conflict(at.clone(), format!("with base {:?}: {error}", base.name)))?;
+        let wrong = |error| conflict(at.clone(), format!("with base {:?}: {error}", base.name));
+        steps = steps.max(changed(&tree, base).map_err(wrong)?.settings().steps());
     }
-    Ok(())
+    Ok(steps)
 }
 
 /// Horizons in samples.

@@ -1,5 +1,5 @@
 //! What experiments show: heat maps of grids, boxes per base and condition, rankings, parallel coordinates, convergence of a
-//! search. Drawn through any plotters backend like the runs' figures, with the same ink.
+//! search, and what a replication found. Drawn through any plotters backend like the runs' figures, with the same ink.
 
 mod boxes;
 mod chart;
@@ -9,11 +9,14 @@ mod heat_map;
 mod names;
 mod parallel;
 mod ranking;
+mod replication;
 mod shades;
 
+use super::dot_plot;
 use super::path::Frame;
 use super::style::{Style, Theme};
 use super::surface::{DrawError, Pen, Surface};
+use crate::experiments::replication::ReplicationSummary;
 use crate::experiments::{Experiment, ExperimentKind, Results, Summary, SweepDesign, TuningSummary};
 use plotters::prelude::*;
 
@@ -33,6 +36,8 @@ pub enum Shown<'a> {
     Rows(&'a Results, &'a Summary),
     /// Of a tuning: what it has found.
     Search(&'a TuningSummary),
+    /// Of a replication: what its rows say.
+    Readings(&'a ReplicationSummary),
 }
 
 /// A figure of an experiment.
@@ -50,12 +55,24 @@ pub enum ExperimentFigure {
     Convergence,
     /// The Pareto front of a tuning with several objectives.
     ParetoFront,
+    /// The numbers of a replication's readings divided by the paper's.
+    Entries,
+    /// How near to the paper a replication comes with each option of what is unknown.
+    Unknowns,
 }
 
 impl ExperimentFigure {
     /// Every figure.
-    pub const ALL: [Self; 6] =
-        [Self::HeatMap, Self::Boxes, Self::Ranking, Self::ParallelCoordinates, Self::Convergence, Self::ParetoFront];
+    pub const ALL: [Self; 8] = [
+        Self::HeatMap,
+        Self::Boxes,
+        Self::Ranking,
+        Self::ParallelCoordinates,
+        Self::Convergence,
+        Self::ParetoFront,
+        Self::Entries,
+        Self::Unknowns,
+    ];
 
     /// Identifier, in file names and addresses.
     pub const fn id(self) -> &'static str {
@@ -66,6 +83,8 @@ impl ExperimentFigure {
             Self::ParallelCoordinates => "parallel_coordinates",
             Self::Convergence => "convergence",
             Self::ParetoFront => "pareto_front",
+            Self::Entries => "entries",
+            Self::Unknowns => "unknowns",
         }
     }
 
@@ -73,8 +92,9 @@ impl ExperimentFigure {
     pub fn shows(self, experiment: &Experiment) -> bool {
         let sweep = experiment.document().sweep.as_ref();
         match self {
-            // Its figures stand in its report.
-            _ if experiment.kind() == ExperimentKind::Replication => false,
+            Self::Entries | Self::Unknowns => is_replication(experiment),
+            // Its rows hold other numbers.
+            _ if is_replication(experiment) => false,
             Self::HeatMap => sweep.is_some_and(|sweep| sweep.design == SweepDesign::Grid && sweep.axes.len() == 2),
             Self::Boxes => experiment.runs().is_some(),
             Self::Ranking => experiment.runs().is_some() && experiment.base_names().len() > 1,
@@ -87,20 +107,27 @@ impl ExperimentFigure {
     }
 
     /// Height in layout pixels at the natural width.
-    fn height(self, experiment: &Experiment) -> u32 {
-        match self {
-            Self::HeatMap => heat_map::height(experiment),
-            Self::Boxes => boxes::height(experiment),
-            Self::Ranking => ranking::height(experiment),
-            Self::ParallelCoordinates | Self::ParetoFront => 420,
-            Self::Convergence => 460,
+    fn height(self, experiment: &Experiment, shown: Shown<'_>) -> u32 {
+        match (self, shown) {
+            (Self::HeatMap, _) => heat_map::height(experiment),
+            (Self::Boxes, _) => boxes::height(experiment),
+            (Self::Ranking, _) => ranking::height(experiment),
+            (Self::Entries, Shown::Readings(summary)) => dot_plot::height(&replication::entries(summary)),
+            (Self::Unknowns, Shown::Readings(summary)) => dot_plot::height(&replication::unknowns(summary)),
+            (Self::ParallelCoordinates | Self::ParetoFront | Self::Entries | Self::Unknowns, _) => 420,
+            (Self::Convergence, _) => 460,
         }
     }
 }
 
-/// Metrics that can be drawn: those over all joints.
+fn is_replication(experiment: &Experiment) -> bool {
+    experiment.kind() == ExperimentKind::Replication
+}
+
+/// Metrics that can be drawn: those over all joints; none of a replication, whose numbers are entries of the paper.
 pub fn experiment_metrics(experiment: &Experiment) -> impl Iterator<Item = &str> {
-    experiment.columns().overall().map(|column| experiment.columns().names()[column].as_str())
+    let overall = experiment.columns().overall().filter(|_| !is_replication(experiment));
+    overall.map(|column| experiment.columns().names()[column].as_str())
 }
 
 /// The column of a metric; of the default one without a name, of nothing where there is none.
@@ -139,6 +166,12 @@ pub fn draw_experiment<S: Surface>(
         (ExperimentFigure::ParallelCoordinates, Shown::Rows(results, _)) => parallel::draw(&mut pen, &sheet, results),
         (ExperimentFigure::Convergence, Shown::Search(summary)) => convergence::draw(&mut pen, &sheet, summary),
         (ExperimentFigure::ParetoFront, Shown::Search(summary)) => front::draw(&mut pen, &sheet, summary),
+        (ExperimentFigure::Entries, Shown::Readings(summary)) => {
+            dot_plot::draw(&mut pen, &replication::entries(summary), &sheet.whole)
+        }
+        (ExperimentFigure::Unknowns, Shown::Readings(summary)) => {
+            dot_plot::draw(&mut pen, &replication::unknowns(summary), &sheet.whole)
+        }
         _ => chart::say(&mut pen, &sheet.whole, "this experiment has no such figure"),
     }
 }
@@ -150,7 +183,7 @@ pub fn experiment_svg(
     shown: Shown<'_>,
     metric: Option<&str>,
 ) -> Result<String, DrawError> {
-    let (width, height) = (WIDTH, figure.height(experiment));
+    let (width, height) = (WIDTH, figure.height(experiment, shown));
     let mut document = String::new();
     {
         let mut backend = SVGBackend::with_string(&mut document, (width * UNITS, height * UNITS));

@@ -237,8 +237,9 @@ fn record_steps(document: &ScenarioDocument) -> Option<u64> {
 }
 
 fn elasticity<const N: usize>(effects: &EffectsDocument) -> Option<Elasticity<N>> {
-    effects.elasticity.as_ref().map(|elasticity| Elasticity {
-        stiffness: joints(Some(&elasticity.stiffness_nm_rad)),
+    let elasticity = effects.elasticity.as_ref()?;
+    Some(Elasticity {
+        stiffness: joints(Some(&elasticity.stiffness()?)),
         damping: joints(elasticity.damping_nms_rad.as_deref()),
         motor_inertia: joints(Some(&elasticity.motor_inertia_kgm2)),
         encoders: match elasticity.encoders {

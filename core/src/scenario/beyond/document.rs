@@ -48,7 +48,7 @@ optional_fields! {
         ;
         /// Bandwidth ω of `filtered_difference` and `high_gain`, rad/s; 300 when left out.
         bandwidth_rad_s: f64,
-        /// Λ_z of `observer`, 1/s, per joint; the scheme's own when left out, or else the paper's.
+        /// Λ_z of `observer`, 1/s, per joint; the scheme's own when left out, or else those of the robot's `proposed`.
         lambda_z: Vec<f64>,
         /// Λ_x of `observer`, 1/s, per joint; likewise.
         lambda_x: Vec<f64>,
@@ -200,10 +200,11 @@ pub enum EncodersDocument {
 }
 
 optional_fields! {
-    /// Elastic joints. Source: Spong (1987).
+    /// Elastic joints, by the stiffness of their springs or by its inverse. Source: Spong (1987).
     ElasticityDocument, super::schema::elasticity {
         /// Stiffness of the springs per joint, N·m/rad.
-        stiffness_nm_rad: Vec<f64>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        stiffness_nm_rad: Option<Vec<f64>>,
         /// The motors' share of the arm's inertia per joint, behind the gear, kg·m².
         motor_inertia_kgm2: Vec<f64>,
         /// Which side sensors sit on.
@@ -212,6 +213,19 @@ optional_fields! {
         ;
         /// Damping of the springs per joint, N·m·s/rad; none when left out.
         damping_nms_rad: Vec<f64>,
+        /// Compliance of the springs per joint, rad/(N·m), in place of the stiffness; 0 in every joint is the rigid arm.
+        compliance_rad_nm: Vec<f64>,
+    }
+}
+
+impl ElasticityDocument {
+    /// Stiffness per joint, N·m/rad; `None` of rigid joints.
+    pub(crate) fn stiffness(&self) -> Option<Vec<f64>> {
+        match &self.compliance_rad_nm {
+            Some(compliance) if compliance.iter().all(|each| *each == 0.0) => None,
+            Some(compliance) => Some(compliance.iter().map(|each| 1.0 / each).collect()),
+            None => self.stiffness_nm_rad.clone(),
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::robots::{RobotData, payload_parameters};
 use crate::scenario::document::{MethodDocument, ScenarioDocument, SchemeDocument};
 use crate::scenario::error::{Problem, ScenarioError};
 use crate::scenario::gains::{ModelParameters, ProposedGains};
+use crate::scenario::robot_defaults::RobotGains;
 use crate::scenario::validate::{Check, at_most, length, range};
 
 /// Ranges, all inclusive.
@@ -35,6 +36,7 @@ pub(super) mod limits {
     pub const PAYLOADS: usize = 100;
     pub const EXCESS_NM: [f64; 2] = [0.0, 1e3];
     pub const STIFFNESS_NM_RAD: [f64; 2] = [1.0, 1e9];
+    pub const COMPLIANCE_RAD_NM: [f64; 2] = [1e-9, 1.0];
     pub const SPRING_DAMPING_NMS_RAD: [f64; 2] = [0.0, 1e6];
     pub const MOTOR_INERTIA_KGM2: [f64; 2] = [1e-6, 1e3];
     /// Motors against their springs, per integration step: Runge and Kutta's method is stable below 2.8.
@@ -109,7 +111,7 @@ fn resolve_velocity(velocity: &mut VelocityDocument, scheme: &SchemeDocument, ro
     }
     let own = match scheme {
         SchemeDocument::Proposed(Some(gains)) => gains.clone(),
-        _ => ProposedGains::default(),
+        _ => ProposedGains::of(robot),
     };
     for (name, gains, default) in
         [("lambda_z", lambda_z, own.lambda_z), ("lambda_x", lambda_x, own.lambda_x), ("k_d", k_d, own.k_d)]
@@ -205,21 +207,21 @@ fn whole_number(pointer: &str, time_s: f64, unit_s: f64, what: &str) -> Check {
 }
 
 fn check_elasticity(elasticity: &ElasticityDocument, robot: &RobotData, step_s: f64) -> Check {
-    let ElasticityDocument { stiffness_nm_rad, motor_inertia_kgm2, damping_nms_rad, .. } = elasticity;
+    let ElasticityDocument { motor_inertia_kgm2, damping_nms_rad, .. } = elasticity;
     let joints = robot.joint_count();
+    let spring = check_spring(elasticity, joints)?;
     let none = vec![0.0; joints];
     let damping = damping_nms_rad.as_ref().unwrap_or(&none);
     for (name, list, limits, unit) in [
-        ("stiffness_nm_rad", stiffness_nm_rad, limits::STIFFNESS_NM_RAD, "N·m/rad"),
         ("damping_nms_rad", damping, limits::SPRING_DAMPING_NMS_RAD, "N·m·s/rad"),
         ("motor_inertia_kgm2", motor_inertia_kgm2, limits::MOTOR_INERTIA_KGM2, "kg·m²"),
     ] {
         numbers(&format!("/effects/elasticity/{name}"), list, joints, PER_JOINT, limits, unit)?;
     }
-    for joint in 0..joints {
-        let (k, j) = (stiffness_nm_rad[joint], motor_inertia_kgm2[joint]);
+    for (joint, k) in elasticity.stiffness().into_iter().flatten().enumerate() {
+        let j = motor_inertia_kgm2[joint];
         let (frequency, decay) = ((k / j).sqrt(), damping[joint] / j);
-        for (name, rate) in [("stiffness_nm_rad", frequency), ("damping_nms_rad", decay)] {
+        for (name, rate) in [(spring, frequency), ("damping_nms_rad", decay)] {
             if rate * step_s > limits::STEP_ANGLE {
                 let longest_s = limits::STEP_ANGLE / rate;
                 let message =
@@ -229,6 +231,34 @@ fn check_elasticity(elasticity: &ElasticityDocument, robot: &RobotData, step_s: 
         }
     }
     Ok(())
+}
+
+/// The stiffness or the compliance, whichever there is; the name of its field.
+fn check_spring(elasticity: &ElasticityDocument, joints: usize) -> Result<&'static str, ScenarioError> {
+    let compliance = "/effects/elasticity/compliance_rad_nm";
+    match (&elasticity.stiffness_nm_rad, &elasticity.compliance_rad_nm) {
+        (Some(stiffness), None) => {
+            let (pointer, limits) = ("/effects/elasticity/stiffness_nm_rad", limits::STIFFNESS_NM_RAD);
+            numbers(pointer, stiffness, joints, PER_JOINT, limits, "N·m/rad")?;
+            return Ok("stiffness_nm_rad");
+        }
+        (None, Some(list)) if list.iter().all(|each| *each == 0.0) => {
+            length(compliance, list.len(), joints, PER_JOINT)?;
+        }
+        (None, Some(list)) if list.contains(&0.0) => {
+            conflict(compliance, "holds a 0 beside others: joints are all elastic, or with 0 in each all rigid")?;
+        }
+        (None, Some(list)) => {
+            numbers(compliance, list, joints, PER_JOINT, limits::COMPLIANCE_RAD_NM, "rad/(N·m)")?;
+        }
+        (Some(_), Some(_)) => {
+            conflict(compliance, "stands beside the stiffness, of which it is the inverse: give one of them")?;
+        }
+        (None, None) => {
+            conflict("/effects/elasticity", "needs stiffness_nm_rad or its inverse, compliance_rad_nm")?;
+        }
+    }
+    Ok("compliance_rad_nm")
 }
 
 fn check_loads(effects: &EffectsDocument, robot: &RobotData) -> Check {

@@ -131,8 +131,12 @@ pub(super) fn elasticity(schema: &mut Schema) {
             ("stiffness_nm_rad", limits::STIFFNESS_NM_RAD),
             ("damping_nms_rad", limits::SPRING_DAMPING_NMS_RAD),
             ("motor_inertia_kgm2", limits::MOTOR_INERTIA_KGM2),
+            ("compliance_rad_nm", [0.0, limits::COMPLIANCE_RAD_NM[1]]),
         ],
     );
+    let absent = |name: &str| json_schema!({ "properties": { (name): { "type": "null" } } });
+    let one = ["stiffness_nm_rad", "compliance_rad_nm"].map(absent);
+    refine(schema, "", &json_schema!({ "anyOf": one }));
 }
 
 /// Of all imperfections.

@@ -60,9 +60,9 @@ impl Worker<'_> {
         for members in members {
             let experiment = work.experiment.clone();
             let members = Members { rows: rows.clone(), steps, ..members };
-            let keep = move |number: i64, scenario: &Scenario, Run { report, .. }: Run| {
-                let simulated_s = report.at_s.unwrap_or(scenario.settings().duration_s);
-                Ok((experiment.row(number as u64, &report), report.steps, simulated_s))
+            let keep = move |number: i64, scenario: &Scenario, run: Run| {
+                let simulated_s = run.report.at_s.unwrap_or(scenario.settings().duration_s);
+                Ok((experiment.row(number as u64, &run), run.report.steps, simulated_s))
             };
             for (row, taken, simulated_s) in self.compute(members, &checkpoint, keep).await? {
                 metrics::simulated(simulated_s, taken);

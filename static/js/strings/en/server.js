@@ -92,7 +92,7 @@ export const server = {
   intro:
     "A job is a study or an experiment that the server computes: it goes on when this page is closed, survives a restart, and gives the same bits as your browser.",
   states: { queued: "queued", running: "running", succeeded: "succeeded", failed: "failed", canceled: "canceled" },
-  kinds: { study: "study", sweep: "sweep", monte_carlo: "Monte Carlo study", compare: "comparison", tuning: "tuning" },
+  kinds: { study: "study", sweep: "sweep", monte_carlo: "Monte Carlo study", compare: "comparison", tuning: "tuning", replication: "replication search" },
   filters: "Which jobs",
   filterState: "State",
   filterKind: "Kind",

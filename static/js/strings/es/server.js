@@ -96,7 +96,7 @@ export const server = {
   intro:
     "Un trabajo es un estudio o un experimento que calcula el servidor: sigue aunque se cierre esta página, sobrevive a un reinicio y da los mismos bits que su navegador.",
   states: { queued: "en cola", running: "en marcha", succeeded: "terminado", failed: "fallido", canceled: "cancelado" },
-  kinds: { study: "estudio", sweep: "barrido", monte_carlo: "estudio Monte Carlo", compare: "comparación", tuning: "sintonización" },
+  kinds: { study: "estudio", sweep: "barrido", monte_carlo: "estudio Monte Carlo", compare: "comparación", tuning: "sintonización", replication: "búsqueda de replicación" },
   filters: "Qué trabajos",
   filterState: "Estado",
   filterKind: "Tipo",

@@ -48,6 +48,14 @@ fn tuning() -> Value {
     experiment("tuning", &[base("Proposed", "proposed")], section)
 }
 
+fn replication() -> Value {
+    let bases =
+        [base("Proposed", "proposed"), base("Tang and Arteaga", "tang_arteaga"), base("Slotine and Li", "slotine_li")];
+    let options = json!([{ "name": "moving" }, { "name": "at rest", "change": { "initial": { "velocity": "rest" } } }]);
+    let section = json!({ "unknowns": [{ "name": "start", "options": options }], "horizons_s": [1], "windows": [{ "name": "whole" }] });
+    experiment("replication", &bases, section)
+}
+
 fn submit(client: &Client, document: &Value) -> Result<String> {
     let id = client.submit(&json!({ "kind": document["kind"], "spec": document, "label": document["title"] }))?;
     ensure!(client.wait(&id, WITHIN)?["state"] == "succeeded", "{}", client.job(&id)?);
@@ -67,7 +75,7 @@ pub fn an_experiment_is_submitted_by_hand(bench: &Bench) -> Result<()> {
     let page = Page::blank(bench, Screen::Desktop)?;
     go(&page, &format!("{}/jobs.html", server.url))?;
     page.click(".submit-study summary")?;
-    page.wait_for("return document.querySelectorAll('[data-example]').length === 5")?;
+    page.wait_for("return document.querySelectorAll('[data-example]').length === 8")?;
     page.click("[data-example=gains]")?;
     let value = text(&page, "return document.querySelector('#submit-text').value")?;
     let mut document: Value = serde_json::from_str(&value)?;
@@ -93,7 +101,7 @@ pub fn experiments_show_tables_figures_and_files(bench: &Bench) -> Result<()> {
     let server = Server::start(&[])?;
     let client = Client::new(&server.url);
     let page = Page::blank(bench, Screen::Desktop)?;
-    for (document, figures) in [(sweep(), 3), (compare(), 2), (tuning(), 1)] {
+    for (document, figures) in [(sweep(), 3), (compare(), 2), (tuning(), 1), (replication(), 2)] {
         let kind = document["kind"].as_str().context("no kind")?.to_owned();
         let id = submit(&client, &document)?;
         show(&page, &server, &id)?;
@@ -119,7 +127,9 @@ pub fn experiments_show_tables_figures_and_files(bench: &Bench) -> Result<()> {
             &[],
         )?;
         let files = files.as_array().context("no downloads")?;
-        ensure!(files.len() == 6 && files.iter().all(|file| file[1] == 200 && file[2] == true), "{files:?}");
+        // A replication has its report, too.
+        let count = if kind == "replication" { 7 } else { 6 };
+        ensure!(files.len() == count && files.iter().all(|file| file[1] == 200 && file[2] == true), "{files:?}");
         save(&page, &format!("experiment-{kind}"))?;
     }
     // The numbers of the table are the summary's.
@@ -155,10 +165,12 @@ pub fn the_best_of_a_tuning_opens_in_the_playground(bench: &Bench) -> Result<()>
 pub fn experiments_fit_a_phone_in_both_languages(bench: &Bench) -> Result<()> {
     let server = Server::start(&[])?;
     let client = Client::new(&server.url);
-    let (comparison, tuning) = (submit(&client, &compare())?, submit(&client, &tuning())?);
+    let submitted = [("compare", compare()), ("tuning", tuning()), ("replication", replication())];
+    let submitted: Vec<_> =
+        submitted.iter().map(|(name, document)| Ok((name, submit(&client, document)?))).collect::<Result<_>>()?;
     let page = Page::blank(bench, Screen::Phone)?;
     for language in ["en", "es"] {
-        for (name, id) in [("compare", &comparison), ("tuning", &tuning)] {
+        for (name, id) in &submitted {
             page.devtools("Page.navigate", &json!({ "url": "about:blank" }))?;
             go(&page, &format!("{}/jobs.html?lang={language}#{id}", server.url))?;
             page.wait_for("return (document.querySelector('.experiment img')?.naturalWidth ?? 0) > 0")?;
