@@ -153,7 +153,7 @@ fn replays(setting: &mut Setting, eve: &User) -> Result<()> {
     let forged = begun.state.replace('.', "..");
     expect(browser.bring(&forged, &token, &[])?, "state").context("with a state that is none")?;
     let mut parts: Vec<_> = begun.state.split('.').map(str::to_owned).collect();
-    parts[1] = "9999999999".to_owned();
+    "9999999999".clone_into(&mut parts[1]);
     expect(browser.bring(&parts.join("."), &token, &[])?, "state").context("with a state of a longer life")
 }
 
