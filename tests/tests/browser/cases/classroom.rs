@@ -61,8 +61,9 @@ fn solve(school: &School<'_>, page: &Page<'_>, gains: &Gains) -> Result<f64> {
 fn nonsense(school: &School<'_>, page: &Page<'_>) -> Result<f64> {
     school.open_assignment(page)?;
     let first = "document.querySelector('[data-move]')";
-    for (typed, said) in [("abc", "abc"), ("1e9", "1000000000"), ("", "")] {
-        page.type_into("[data-move] .exact input", &format!("{typed}\u{e003}"))?;
+    // The last is the backspace key, which empties the field.
+    for (typed, said) in [("abc", "abc"), ("1e9", "1000000000"), ("\u{e003}", "")] {
+        page.type_into("[data-move] .exact input", typed)?;
         let wrong = text(page, &format!("return {first}.querySelector('.field-error').textContent"))?;
         ensure!(!wrong.is_empty() && wrong.contains(said), "{typed:?} is answered by {wrong:?}");
     }
