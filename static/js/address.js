@@ -13,6 +13,8 @@ import { failureOf } from "./wasm.js";
 
 const KEY = "address";
 const AFTER_MS = 250;
+/** A download fires the same event as leaving, but nothing follows: after this the address catches up. */
+const LEAVING_MS = 10_000;
 /** In the browser's history: an address without a link that was left by this page stands for the paper's study. */
 const MARK = { adaptarm: 1 };
 
@@ -39,6 +41,7 @@ export class Address {
     steps.as({ kind: "visit" }, () => steps.catchUp());
     state.addEventListener("changed", () => this.#updateSoon());
     addEventListener("hashchange", () => this.#moved());
+    addEventListener("beforeunload", () => this.#hold());
     addEventListener("pagehide", () => saveSession(KEY, location.hash));
     document.addEventListener("click", (event) => jump(event));
     await this.#update();
@@ -66,6 +69,13 @@ export class Address {
   #updateSoon() {
     clearTimeout(this.#pending);
     this.#pending = setTimeout(() => this.#update(), AFTER_MS);
+  }
+
+  /** A reload takes the address as it is now: written later, it would not be the one under which the settings are kept. */
+  #hold() {
+    this.#turn += 1;
+    clearTimeout(this.#pending);
+    this.#pending = setTimeout(() => this.#update(), LEAVING_MS);
   }
 
   async #update() {
