@@ -7,7 +7,12 @@ use crate::error::Problem;
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use futures_util::{TryStreamExt, stream};
+use std::io::{self, SeekFrom};
 use std::ops::Range;
+use tokio::fs::File;
+use tokio::io::{AsyncReadExt, AsyncSeekExt};
+use tokio_util::io::ReaderStream;
 
 /// Whether a browser shows a file or saves it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,6 +109,18 @@ impl Download {
         }
     }
 
+    /// The same of a file on disk, of which a piece is held at a time.
+    pub fn file(&self, request: &HeaderMap, file: File, length: u64) -> Response {
+        match self.part(request) {
+            None => {
+                let mut response = self.whole(pieces(file, 0..length));
+                response.headers_mut().insert(header::CONTENT_LENGTH, HeaderValue::from(length));
+                response
+            }
+            Some(part) => self.partial(part, length, |range| pieces(file, range)),
+        }
+    }
+
     fn describe(&self, mut response: Response) -> Response {
         insert(&mut response, header::CONTENT_TYPE, self.media_type);
         let disposition = match self.disposition {
@@ -117,6 +134,15 @@ impl Download {
         describe_caching(&mut response);
         response
     }
+}
+
+/// A part of a file as a body.
+fn pieces(mut file: File, range: Range<u64>) -> Body {
+    let opened = async move {
+        file.seek(SeekFrom::Start(range.start)).await?;
+        Ok::<_, io::Error>(ReaderStream::new(file.take(range.end - range.start)))
+    };
+    Body::from_stream(stream::once(opened).try_flatten())
 }
 
 /// Results belong to their owner, and jobs can be deleted: a copy may be kept, but not used without asking.
@@ -191,6 +217,25 @@ mod tests {
         let status = response.status().as_u16();
         let body = response.into_body().collect().await.unwrap().to_bytes();
         (status, range, String::from_utf8(body.to_vec()).unwrap())
+    }
+
+    #[tokio::test]
+    async fn a_file_on_disk_is_sent_as_its_bytes_are() {
+        for range in ["bytes=0-0", "bytes=2-4", "bytes=7-99", "bytes=-3", "bytes=12-", "lines=1-2"] {
+            let (request, content) = (request(&[(header::RANGE, range)]), b"0123456789");
+            let mut file = tempfile::tempfile().unwrap();
+            io::Write::write_all(&mut file, content).unwrap();
+            let answers = [
+                self::file().file(&request, File::from_std(file), 10),
+                self::file().bytes(&request, content[..].into()),
+            ];
+            let [from_disk, from_memory] = answers.map(|answer| async {
+                let (mut head, body) = answer.into_parts();
+                head.headers.remove(header::CONTENT_LENGTH);
+                (head.status, head.headers, body.collect().await.unwrap().to_bytes())
+            });
+            assert_eq!(from_disk.await, from_memory.await, "{range}");
+        }
     }
 
     #[tokio::test]

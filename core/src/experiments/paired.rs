@@ -5,8 +5,9 @@
 
 use super::experiment::Experiment;
 use super::layout::{Layout, Place};
-use super::results::Results;
+use super::results::{ResultColumn, Results};
 use super::row::RowOutcome;
+use super::row_store::RowStoreError;
 use super::statistics::{Share, Statistics, quantile, ranks};
 use super::stream::{Purpose, Stream};
 use serde::{Deserialize, Serialize};
@@ -73,14 +74,18 @@ struct Block {
 }
 
 /// All comparisons of an experiment with several bases.
-pub(super) fn compare(experiment: &Experiment, results: &Results) -> (Vec<PairSummary>, Vec<Ranking>) {
+pub(super) fn compare(
+    experiment: &Experiment,
+    results: &Results,
+) -> Result<(Vec<PairSummary>, Vec<Ranking>), RowStoreError> {
     let (mut pairs, mut rankings) = (Vec::new(), Vec::new());
-    let Some(layout) = experiment.layout().filter(|layout| layout.bases > 1) else { return (pairs, rankings) };
+    let Some(layout) = experiment.layout().filter(|layout| layout.bases > 1) else { return Ok((pairs, rankings)) };
     for column in experiment.columns().overall() {
-        if !comparable(experiment, layout, results, column) {
+        let numbers = results.column(column)?;
+        if !comparable(experiment, layout, results, column, &numbers) {
             continue;
         }
-        let blocks = blocks(layout, results, column);
+        let blocks = blocks(layout, results, &numbers);
         if blocks.is_empty() {
             continue;
         }
@@ -94,33 +99,40 @@ pub(super) fn compare(experiment: &Experiment, results: &Results) -> (Vec<PairSu
         }
         rankings.push(rank(experiment, layout, column, &blocks));
     }
-    (pairs, rankings)
+    Ok((pairs, rankings))
 }
 
 /// Whether a metric means something for every base: only some observe. That nothing settled is no lack of meaning.
-fn comparable(experiment: &Experiment, layout: &Layout, results: &Results, column: usize) -> bool {
+fn comparable(
+    experiment: &Experiment,
+    layout: &Layout,
+    results: &Results,
+    column: usize,
+    numbers: &ResultColumn,
+) -> bool {
     let mut completed = vec![false; layout.bases];
-    let mut numbers = vec![false; layout.bases];
-    for row in results.rows() {
-        let base = layout.place(row.index).base;
-        completed[base] |= row.outcome == RowOutcome::Completed;
-        numbers[base] |= row.metrics[column].is_some();
+    let mut measured = vec![false; layout.bases];
+    for (index, outcome) in results.outcomes() {
+        let base = layout.place(index).base;
+        completed[base] |= outcome == RowOutcome::Completed;
+        measured[base] |= numbers.of(index).is_some();
     }
     let settling = experiment.columns().names()[column].starts_with("settling");
-    settling || completed.iter().zip(&numbers).all(|(completed, numbers)| *numbers || !completed)
+    settling || completed.iter().zip(&measured).all(|(completed, measured)| *measured || !completed)
 }
 
-fn blocks(layout: &Layout, results: &Results, column: usize) -> Vec<Block> {
+fn blocks(layout: &Layout, results: &Results, numbers: &ResultColumn) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut seen = None;
-    for row in results.rows() {
-        let Place { point, condition, base: _ } = layout.place(row.index);
+    for (index, _) in results.outcomes() {
+        let Place { point, condition, base: _ } = layout.place(index);
         if seen.replace((point, condition)) == Some((point, condition)) {
             continue;
         }
         let value = |base: usize| {
-            let row = results.row(layout.index(Place { point, condition, base }))?;
-            (row.outcome != RowOutcome::Refused).then(|| row.metrics[column].unwrap_or(f64::INFINITY))
+            let index = layout.index(Place { point, condition, base });
+            let made = results.outcome(index)? != RowOutcome::Refused;
+            made.then(|| numbers.of(index).unwrap_or(f64::INFINITY))
         };
         if let Some(values) = (0..layout.bases).map(value).collect::<Option<Vec<_>>>() {
             blocks.push(Block { point, condition, values });

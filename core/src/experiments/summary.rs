@@ -7,10 +7,14 @@ use super::document::ExperimentKind;
 use super::experiment::Experiment;
 use super::layout::{Layout, Place};
 use super::paired::{PairSummary, Ranking, compare};
-use super::results::Results;
-use super::row::{Row, RowOutcome};
+use super::results::{ResultColumn, Results};
+use super::row::RowOutcome;
+use super::row_store::RowStoreError;
 use super::statistics::{Share, Statistics, rank_correlation};
 use serde::{Deserialize, Serialize};
+
+/// Fields whose values at all points are held at a time.
+const FIELDS_AT_ONCE: usize = 8;
 
 /// Summary of a sweep, a Monte Carlo study or a comparison.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -107,14 +111,14 @@ impl Summary {
     /// Identifier of the format.
     pub const FORMAT: &'static str = "adaptarm.experiment_summary/1";
 
-    /// Of the rows that there are; of a tuning it says nothing.
-    pub fn of(experiment: &Experiment, results: &Results) -> Self {
+    /// Of the rows that there are; of a tuning it says nothing. Holds a few columns at a time.
+    pub fn of(experiment: &Experiment, results: &Results) -> Result<Self, RowStoreError> {
         let document = experiment.document();
-        let (pairs, rankings) = compare(experiment, results);
-        let refusal = |row: &Row| Some(Refusal { run: row.index, why: row.refusal.clone()? });
-        let (groups, sensitivities) =
-            experiment.layout().map(|layout| groups(experiment, layout, results)).unwrap_or_default();
-        Self {
+        let (pairs, rankings) = compare(experiment, results)?;
+        let groups = experiment.layout().map_or(Ok(Vec::new()), |layout| groups(experiment, layout, results))?;
+        let sensitivities =
+            experiment.layout().map_or(Ok(Vec::new()), |layout| sensitivities(experiment, layout, &groups, results))?;
+        Ok(Self {
             format: Self::FORMAT.to_owned(),
             core_version: crate::VERSION.to_owned(),
             experiment_hash: experiment.hash(),
@@ -123,86 +127,109 @@ impl Summary {
             runs: experiment.runs().unwrap_or(0),
             done: results.len() as u64,
             confidence: document.confidence,
-            first_refusal: results.rows().find_map(refusal),
+            first_refusal: first_refusal(results)?,
             groups,
             sensitivities,
             pairs,
             rankings,
-        }
+        })
     }
 }
 
-fn groups(experiment: &Experiment, layout: &Layout, results: &Results) -> (Vec<GroupSummary>, Vec<Sensitivity>) {
-    let (mut groups, mut sensitivities) = (Vec::new(), Vec::new());
-    for base in 0..layout.bases {
-        for condition in 0..layout.conditions.len() {
-            let rows: Vec<_> = (0..layout.points)
-                .filter_map(|point| Some((point, results.row(layout.index(Place { point, condition, base }))?)))
-                .collect();
-            let group = group(experiment, layout, base, condition, &rows);
-            sensitivities.extend(sensitivity(experiment, layout, &group, &rows));
-            groups.push(group);
-        }
-    }
-    (groups, sensitivities)
-}
-
-fn group(
-    experiment: &Experiment,
-    layout: &Layout,
-    base: usize,
-    condition: usize,
-    rows: &[(u64, &Row)],
-) -> GroupSummary {
-    let confidence = experiment.document.confidence;
-    let count = |outcome| rows.iter().filter(|(_, row)| row.outcome == outcome).count();
-    let [completed, diverged, refused] = [RowOutcome::Completed, RowOutcome::Diverged, RowOutcome::Refused].map(count);
-    let metric = |(column, name): (usize, &String)| {
-        let values: Vec<_> = rows.iter().filter_map(|(_, row)| row.metrics[column]).collect();
-        let statistics = Statistics::of(&values, confidence)?;
-        let best = rows.iter().find(|(_, row)| row.metrics[column] == Some(statistics.min));
-        Some(MetricSummary { metric: name.clone(), best_point: best.map_or(0, |(point, _)| *point), statistics })
+fn first_refusal(results: &Results) -> Result<Option<Refusal>, RowStoreError> {
+    let Some((run, _)) = results.outcomes().find(|(_, outcome)| *outcome == RowOutcome::Refused) else {
+        return Ok(None);
     };
+    Ok(results.row(run)?.and_then(|row| Some(Refusal { run, why: row.refusal? })))
+}
+
+/// Runs of a base under a condition, with their points.
+fn members(layout: &Layout, group: usize) -> impl Iterator<Item = (u64, u64)> {
+    let (base, condition) = (group / layout.conditions.len(), group % layout.conditions.len());
+    (0..layout.points).map(move |point| (point, layout.index(Place { point, condition, base })))
+}
+
+fn groups(experiment: &Experiment, layout: &Layout, results: &Results) -> Result<Vec<GroupSummary>, RowStoreError> {
+    let count = layout.bases * layout.conditions.len();
+    let mut groups: Vec<_> = (0..count).map(|group| ends(experiment, layout, group, results)).collect();
+    for (column, name) in experiment.columns().names().iter().enumerate() {
+        let numbers = results.column(column)?;
+        for (n, group) in groups.iter_mut().enumerate() {
+            group.metrics.extend(metric(experiment, name, &numbers, members(layout, n)));
+        }
+    }
+    Ok(groups)
+}
+
+/// How the runs of a group ended, before anything is said of their metrics.
+fn ends(experiment: &Experiment, layout: &Layout, group: usize, results: &Results) -> GroupSummary {
+    let count = |outcome| members(layout, group).filter(|(_, index)| results.outcome(*index) == Some(outcome)).count();
+    let [completed, diverged, refused] = [RowOutcome::Completed, RowOutcome::Diverged, RowOutcome::Refused].map(count);
+    let made = completed + diverged;
     GroupSummary {
-        base: experiment.bases[base].name.clone(),
-        condition: layout.conditions[condition].name.clone(),
+        base: experiment.bases[group / layout.conditions.len()].name.clone(),
+        condition: layout.conditions[group % layout.conditions.len()].name.clone(),
         completed,
         refused,
-        diverged: (completed + diverged > 0).then(|| Share::new(diverged, completed + diverged, confidence)),
-        metrics: experiment.columns().names().iter().enumerate().filter_map(metric).collect(),
+        diverged: (made > 0).then(|| Share::new(diverged, made, experiment.document.confidence)),
+        metrics: Vec::new(),
     }
 }
 
-/// Of every field and metric over all joints, from three completed runs on.
-fn sensitivity(
+fn metric(
+    experiment: &Experiment,
+    name: &str,
+    numbers: &ResultColumn,
+    members: impl Iterator<Item = (u64, u64)>,
+) -> Option<MetricSummary> {
+    let (points, values): (Vec<_>, Vec<_>) =
+        members.filter_map(|(point, index)| Some((point, numbers.of(index)?))).unzip();
+    let statistics = Statistics::of(&values, experiment.document.confidence)?;
+    let best = values.iter().position(|value| *value == statistics.min);
+    Some(MetricSummary { metric: name.to_owned(), best_point: best.map_or(0, |n| points[n]), statistics })
+}
+
+/// Of every field and metric over all joints, in groups of three completed runs or more.
+fn sensitivities(
     experiment: &Experiment,
     layout: &Layout,
-    group: &GroupSummary,
-    rows: &[(u64, &Row)],
-) -> Vec<Sensitivity> {
+    groups: &[GroupSummary],
+    results: &Results,
+) -> Result<Vec<Sensitivity>, RowStoreError> {
     const FEWEST: usize = 3;
-    let mut found = Vec::new();
-    if group.completed < FEWEST || layout.fields.is_empty() {
-        return found;
+    let told: Vec<_> = (0..groups.len()).filter(|group| groups[*group].completed >= FEWEST).collect();
+    if told.is_empty() {
+        return Ok(Vec::new());
     }
-    let values: Vec<_> = rows.iter().map(|(point, _)| experiment.values(*point)).collect();
-    for column in experiment.columns().overall() {
-        for (n, field) in layout.fields.iter().enumerate() {
-            let (x, y): (Vec<_>, Vec<_>) = rows
-                .iter()
-                .zip(&values)
-                .filter_map(|((_, row), values)| Some((values[n], row.metrics[column]?)))
-                .unzip();
-            if let Some(rank_correlation) = rank_correlation(&x, &y).filter(|_| x.len() >= FEWEST) {
-                found.push(Sensitivity {
-                    base: group.base.clone(),
-                    condition: group.condition.clone(),
-                    metric: experiment.columns().names()[column].clone(),
-                    field: field.pointer.clone(),
-                    rank_correlation,
-                });
+    let mut found = Vec::new();
+    let fields: Vec<_> = (0..layout.fields.len()).collect();
+    for some in fields.chunks(FIELDS_AT_ONCE) {
+        let mut values = vec![Vec::with_capacity(layout.points as usize); some.len()];
+        for point in 0..layout.points {
+            let all = experiment.values(point);
+            values.iter_mut().zip(some).for_each(|(values, field)| values.push(all[*field]));
+        }
+        for column in experiment.columns().overall() {
+            let numbers = results.column(column)?;
+            for &group in &told {
+                for (values, &field) in values.iter().zip(some) {
+                    let pairs =
+                        members(layout, group).filter_map(|(at, run)| Some((values[at as usize], numbers.of(run)?)));
+                    let (x, y): (Vec<_>, Vec<_>) = pairs.unzip();
+                    if let Some(correlation) = rank_correlation(&x, &y).filter(|_| x.len() >= FEWEST) {
+                        found.push(([group, column, field], correlation));
+                    }
+                }
             }
         }
     }
-    found
+    found.sort_by_key(|(place, _)| *place);
+    let tell = |([group, column, field], rank_correlation): ([usize; 3], f64)| Sensitivity {
+        base: groups[group].base.clone(),
+        condition: groups[group].condition.clone(),
+        metric: experiment.columns().names()[column].clone(),
+        field: layout.fields[field].pointer.clone(),
+        rank_correlation,
+    };
+    Ok(found.into_iter().map(tell).collect())
 }

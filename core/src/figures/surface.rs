@@ -4,17 +4,24 @@
 use super::decimate::Point;
 use super::path::{Frame, Path};
 use super::style::{Line, Rgb, Style};
+use crate::experiments::RowStoreError;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
 
-/// The backend failed.
+/// The backend failed, or what is to be drawn could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the figure could not be drawn: {0}")]
 pub struct DrawError(String);
 
 impl<E: std::error::Error + Send + Sync> From<DrawingErrorKind<E>> for DrawError {
     fn from(error: DrawingErrorKind<E>) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<RowStoreError> for DrawError {
+    fn from(error: RowStoreError) -> Self {
         Self(error.to_string())
     }
 }

@@ -8,12 +8,12 @@ use crate::figures::PictureFormat;
 use crate::series::parquet;
 use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{
-    Experiment, ExperimentKind, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary,
+    Experiment, ExperimentKind, Front, Place, Results, Row, RowOutcome, RowStoreError, Summary, Tuning, TuningSummary,
 };
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 
 /// What is known of an experiment, at its end or on the way there.
@@ -29,28 +29,36 @@ pub enum Found {
 
 impl Found {
     /// What the rows of an experiment that is no tuning say.
-    pub fn of(experiment: &Experiment, results: Results) -> Self {
-        if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+    pub fn of(experiment: &Experiment, results: Results) -> Result<Self, RowStoreError> {
+        Ok(if let Some(summary) = ReplicationSummary::of(experiment, &results)? {
             Self::Readings(results, Box::new(summary))
         } else {
-            let summary = Box::new(Summary::of(experiment, &results));
+            let summary = Box::new(Summary::of(experiment, &results)?);
             Self::Rows(results, summary)
-        }
+        })
     }
 
     /// The same, from a stored summary if it is of as many rows.
-    pub fn with(experiment: &Experiment, results: Results, stored: Option<&str>) -> Self {
+    pub fn with(experiment: &Experiment, results: Results, stored: Option<&str>) -> Result<Self, RowStoreError> {
         let (stored, done) = (stored.unwrap_or_default(), results.len() as u64);
         if experiment.kind() == ExperimentKind::Replication {
             match serde_json::from_str::<ReplicationSummary>(stored) {
-                Ok(summary) if summary.done == done => Self::Readings(results, Box::new(summary)),
+                Ok(summary) if summary.done == done => Ok(Self::Readings(results, Box::new(summary))),
                 _ => Self::of(experiment, results),
             }
         } else {
             match serde_json::from_str::<Summary>(stored) {
-                Ok(summary) if summary.done == done => Self::Rows(results, Box::new(summary)),
+                Ok(summary) if summary.done == done => Ok(Self::Rows(results, Box::new(summary))),
                 _ => Self::of(experiment, results),
             }
+        }
+    }
+
+    /// The rows; a tuning keeps none.
+    fn results(&self) -> Option<&Results> {
+        match self {
+            Self::Rows(results, _) | Self::Readings(results, _) => Some(results),
+            Self::Search(_) => None,
         }
     }
 }
@@ -115,49 +123,46 @@ impl File {
         }
     }
 
-    /// Its bytes; nothing where there is nothing to write. Takes up to a second where there are very many rows.
-    pub fn bytes(self, experiment: &Experiment, found: &Found) -> Result<Option<Vec<u8>>> {
-        Ok(Some(match (self, found) {
+    /// Writes it; says whether there is anything to write. Takes up to a second where there are very many rows, of which a
+    /// column is held at a time.
+    pub fn write(self, experiment: &Experiment, found: &Found, out: &mut (dyn Write + Send)) -> Result<bool> {
+        let bytes = match (self, found) {
+            (Self::RunsCsv | Self::RunsParquet, _) => {
+                let Some(results) = found.results() else { return Ok(false) };
+                match self {
+                    Self::RunsCsv => csv(experiment, results, out)?,
+                    _ => table(experiment, results, out)?,
+                }
+                return Ok(true);
+            }
             (Self::Experiment, _) => json(experiment.document())?,
             (Self::Summary, Found::Rows(_, summary)) => json(summary)?,
             (Self::Summary, Found::Readings(_, summary)) => json(summary)?,
             (Self::Summary, Found::Search(tuning)) => json(&tuning.summary(experiment))?,
-            (Self::RunsCsv, Found::Rows(results, _) | Found::Readings(results, _)) => {
-                let mut text = Vec::new();
-                csv(experiment, results, &mut text)?;
-                text
-            }
-            (Self::RunsParquet, Found::Rows(results, _) | Found::Readings(results, _)) => table(experiment, results)?,
             (Self::Best, Found::Search(tuning)) => match tuning.best_scenario(experiment) {
                 Some(best) => json(best.document())?,
-                None => return Ok(None),
+                None => return Ok(false),
             },
             (Self::Generations, Found::Search(tuning)) => generations(&tuning.summary(experiment)).into_bytes(),
             (Self::Front, Found::Search(tuning)) => match &tuning.summary(experiment).front {
                 Some(front) => front_table(front, &tuning.summary(experiment).variables).into_bytes(),
-                None => return Ok(None),
+                None => return Ok(false),
             },
             (Self::Report, Found::Readings(_, summary)) => search_report::report(experiment, summary)?.into_bytes(),
-            (Self::RunsCsv | Self::RunsParquet | Self::Report, Found::Search(_))
-            | (Self::Report, Found::Rows(..))
+            (Self::Report, _)
             | (Self::Best | Self::Generations | Self::Front, Found::Rows(..) | Found::Readings(..)) => {
-                return Ok(None);
+                return Ok(false);
             }
-        }))
+        };
+        out.write_all(&bytes)?;
+        Ok(true)
     }
 }
 
 /// Writes all files of an experiment into a folder, and its figures as SVG.
 pub(super) fn write(experiment: &Experiment, found: &Found, folder: &Path) -> Result<()> {
     for file in File::of(experiment) {
-        // Much larger than the numbers in it: not held in memory.
-        if let (File::RunsCsv, Found::Rows(results, _) | Found::Readings(results, _)) = (file, found) {
-            replace_by(&folder.join(file.name()), |text| Ok(csv(experiment, results, text)?))?;
-            continue;
-        }
-        if let Some(bytes) = file.bytes(experiment, found)? {
-            replace(&folder.join(file.name()), &bytes)?;
-        }
+        replace_by(&folder.join(file.name()), |out| file.write(experiment, found, out))?;
     }
     for picture in Picture::of(experiment).filter(|picture| picture.format == PictureFormat::Svg) {
         replace(&folder.join(picture.name()), &picture.bytes(experiment, found, None)?)?;
@@ -191,15 +196,16 @@ fn front_table(front: &Front, variables: &[String]) -> String {
 }
 
 /// A row per run; an empty cell where there is no number.
-fn csv(experiment: &Experiment, results: &Results, text: &mut dyn Write) -> io::Result<()> {
+fn csv(experiment: &Experiment, results: &Results, text: &mut dyn Write) -> Result<()> {
     let (conditions, bases) = (experiment.condition_names(), experiment.base_names().collect::<Vec<_>>());
     let names = ["run", "point", "condition", "base", "outcome", "at_s"].into_iter().chain(experiment.fields());
     let names = names.chain(experiment.columns().names().iter().map(String::as_str));
     writeln!(text, "{}", names.map(cell).collect::<Vec<_>>().join(","))?;
     for row in results.rows() {
+        let row = row?;
         let Some(place) = experiment.place(row.index) else { continue };
         let (condition, base) = (cell(conditions[place.condition]), cell(bases[place.base]));
-        write!(text, "{},{},{condition},{base},{}", row.index, place.point, outcome(row))?;
+        write!(text, "{},{},{condition},{base},{}", row.index, place.point, outcome(&row))?;
         let values = experiment.values(place.point).into_iter().map(Some);
         for number in [row.at_s].into_iter().chain(values).chain(row.metrics.iter().copied()) {
             match number {
@@ -227,26 +233,33 @@ fn cell(name: &str) -> String {
 
 /// The same as Parquet, all doubles: conditions and bases by number from 0, outcomes 0 completed, 1 diverged, 2 refused, and
 /// NaN where there is no number.
-fn table(experiment: &Experiment, results: &Results) -> Result<Vec<u8>> {
-    let names = ["run", "point", "condition", "base", "outcome", "at_s"].into_iter().chain(experiment.fields());
-    let names: Vec<_> = names.map(str::to_owned).chain(experiment.columns().names().iter().cloned()).collect();
-    let (lead, fields) = (6, experiment.fields().len());
-    // One after another: together they would take as much memory as all rows.
-    let number = |row: &Row, column: usize| {
-        let place = experiment.place(row.index)?;
-        match column {
-            0 => Some(row.index as f64),
-            1 => Some(place.point as f64),
-            2 => Some(place.condition as f64),
-            3 => Some(place.base as f64),
-            4 => Some(f64::from(row.outcome as u8)),
-            5 => row.at_s,
-            field if field < lead + fields => experiment.values(place.point).get(field - lead).copied(),
-            metric => row.metrics[metric - lead - fields],
-        }
+fn table(experiment: &Experiment, results: &Results, out: &mut (dyn Write + Send)) -> Result<()> {
+    let lead = ["run", "point", "condition", "base", "outcome", "at_s"];
+    let fields = experiment.fields();
+    let names = lead.into_iter().chain(experiment.fields()).map(str::to_owned);
+    let names: Vec<_> = names.chain(experiment.columns().names().iter().cloned()).collect();
+    let placed = |number: &dyn Fn(Place) -> f64| {
+        let number = |index| experiment.place(index).map_or(f64::NAN, number);
+        results.outcomes().map(|(index, _)| number(index)).collect()
     };
-    let columns =
-        (0..names.len()).map(|column| results.rows().map(|row| number(row, column).unwrap_or(f64::NAN)).collect());
+    let column = |column: usize| -> Result<Vec<f64>> {
+        Ok(match column {
+            0 => results.outcomes().map(|(index, _)| index as f64).collect(),
+            1 => placed(&|place| place.point as f64),
+            2 => placed(&|place| place.condition as f64),
+            3 => placed(&|place| place.base as f64),
+            4 => results.outcomes().map(|(_, outcome)| f64::from(outcome as u8)).collect(),
+            5 => results.rows().map(|row| Ok(row?.at_s.unwrap_or(f64::NAN))).collect::<Result<_>>()?,
+            _ if column < lead.len() + fields.len() => {
+                placed(&|place| experiment.values(place.point)[column - lead.len()])
+            }
+            _ => {
+                let numbers = results.numbers(column - lead.len() - fields.len())?;
+                numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect()
+            }
+        })
+    };
     let metadata = [("adaptarm.experiment_hash", experiment.hash())];
-    Ok(parquet::from_columns(&names, columns, &metadata.each_ref().map(|(key, value)| (*key, value.as_str())))?)
+    let metadata = metadata.each_ref().map(|(key, value)| (*key, value.as_str()));
+    parquet::write_columns(out, &names, (0..names.len()).map(column), &metadata)
 }

@@ -6,16 +6,18 @@
 mod checkpoint;
 mod files;
 mod pictures;
+mod row_file;
 mod search_report;
 
 pub use checkpoint::CheckpointError;
 pub use files::{File, Found};
 pub use pictures::Picture;
+pub use row_file::RowFile;
 
 use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{Experiment, PlannedRun, Results, Row, Summary, Tuning, TuningError, TuningSummary};
 use anyhow::{Context, Result};
-use checkpoint::{Checkpoint, Current, State};
+use checkpoint::{Checkpoint, NAME};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -69,41 +71,26 @@ pub fn run(experiment: &Experiment, settings: &Settings) -> Result<Outcome> {
     if let Some(folder) = &settings.out {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
-    let mut checkpoint = Checkpoint::new(experiment, settings.out.as_deref());
-    let state = if settings.resume { checkpoint.load(experiment)? } else { None };
     let folder = settings.out.as_deref();
-    match (experiment.tuning(), state) {
-        (Some(start), state) => {
-            let tuning = match state {
-                Some(State::Tuning(tuning)) => *tuning,
-                _ => start,
-            };
-            search(experiment, tuning, &pool, &mut checkpoint, folder)
-        }
-        (None, state) => {
-            let rows = match state {
-                Some(State::Rows(rows)) => rows,
-                _ => Vec::new(),
-            };
-            lay_out(experiment, rows, &pool, &mut checkpoint, folder)
-        }
-    }
+    let Some(start) = experiment.tuning() else {
+        let rows = match folder.map(|folder| folder.join(NAME)) {
+            None => RowFile::unnamed(experiment)?,
+            Some(path) => {
+                let earlier = if settings.resume { RowFile::open(experiment, &path)? } else { None };
+                earlier.map_or_else(|| RowFile::create(experiment, &path), Ok)?
+            }
+        };
+        return lay_out(experiment, Results::kept_in(rows)?, &pool, folder);
+    };
+    let mut checkpoint = Checkpoint::new(experiment, folder);
+    let earlier = if settings.resume { checkpoint.load(experiment)? } else { None };
+    search(experiment, earlier.unwrap_or(start), &pool, &mut checkpoint, folder)
 }
 
 /// All runs that are not done, in any order.
-fn lay_out(
-    experiment: &Experiment,
-    rows: Vec<Row>,
-    pool: &ThreadPool,
-    checkpoint: &mut Checkpoint,
-    folder: Option<&Path>,
-) -> Result<Outcome> {
-    let mut results = Results::new();
-    for row in rows {
-        results.insert(experiment, row)?;
-    }
+fn lay_out(experiment: &Experiment, mut results: Results, pool: &ThreadPool, folder: Option<&Path>) -> Result<Outcome> {
     let runs = experiment.runs().unwrap_or(0);
-    let missing: Vec<_> = (0..runs).filter(|index| results.row(*index).is_none()).collect();
+    let missing: Vec<_> = (0..runs).filter(|index| results.outcome(*index).is_none()).collect();
     let at_once = POINTS_AT_ONCE * experiment.base_names().len();
     let bar = progress_bar(runs, "runs");
     bar.set_position(results.len() as u64);
@@ -112,11 +99,10 @@ fn lay_out(
     each_row(experiment, &chunks, &plan, pool, &mut |row| {
         results.insert(experiment, row)?;
         bar.inc(1);
-        checkpoint.save_if_due(Current::Rows(&results))
+        Ok(())
     })?;
     bar.finish_and_clear();
-    checkpoint.save(Current::Rows(&results))?;
-    finish(experiment, Found::of(experiment, results), folder)
+    finish(experiment, Found::of(experiment, results)?, folder)
 }
 
 /// Writes what was found, and tells it.
@@ -153,13 +139,13 @@ fn search(
             Ok(())
         })?;
         tuning.tell(experiment, rows).map_err(Refused::Objective)?;
-        checkpoint.save_if_due(Current::Tuning(&tuning))?;
+        checkpoint.save_if_due(&tuning)?;
         let (done, all) = tuning.progress(experiment);
         bar.set_length(all);
         bar.set_position(done);
     }
     bar.finish_and_clear();
-    checkpoint.save(Current::Tuning(&tuning))?;
+    checkpoint.save(&tuning)?;
     finish(experiment, Found::Search(Box::new(tuning)), folder)
 }
 

@@ -7,6 +7,7 @@ use super::study::check_total;
 use super::{Folded, JobKind, NewExperiment, NextStep, Part, StudyError};
 use crate::config::Limits;
 use crate::document::parse;
+use crate::experiment::RowFile;
 use crate::metrics::FailureReason;
 use crate::packed;
 use adaptarm_core::VERSION;
@@ -160,19 +161,68 @@ pub fn read_search(experiment: &Experiment, state: &[u8]) -> Result<Tuning, Fail
 }
 
 /// Stored rows.
-pub fn read_rows(packed: &[Vec<u8>]) -> Result<Vec<Row>, Failure> {
-    let damaged = |error| (FailureReason::Storage, format!("stored rows are damaged: {error}"));
-    let parts: Vec<Vec<Row>> =
-        packed.iter().map(|part| packed::unpack(part).map_err(damaged)).collect::<Result<_, _>>()?;
-    Ok(parts.into_iter().flatten().collect())
+fn read_rows(packed: &[u8]) -> Result<Vec<Row>, Failure> {
+    packed::unpack(packed).map_err(|error| (FailureReason::Storage, format!("stored rows are damaged: {error}")))
+}
+
+/// An experiment's results as the tables' packed rows fill them; on disk, for there may be very many.
+pub fn begin_results(experiment: &Experiment) -> Result<Results, Failure> {
+    let file = RowFile::unnamed(experiment).map_err(|error| (FailureReason::Storage, format!("{error:#}")))?;
+    Results::kept_in(file).map_err(storage)
+}
+
+/// Takes in packed rows.
+pub fn take_in(experiment: &Experiment, results: &mut Results, packed: &[Vec<u8>]) -> Result<(), Failure> {
+    for part in packed {
+        for row in read_rows(part)? {
+            results.insert(experiment, row).map_err(storage)?;
+        }
+    }
+    Ok(())
+}
+
+fn storage(error: impl std::fmt::Display) -> Failure {
+    (FailureReason::Storage, error.to_string())
+}
+
+/// The rows of a step while they are gathered.
+#[derive(Debug)]
+pub(super) enum Gathered {
+    /// Of an experiment that is laid out.
+    Results(Results),
+    /// Of a generation of a tuning, whose size has a limit.
+    Generation(Vec<Row>),
+}
+
+impl Gathered {
+    /// None yet.
+    pub(super) fn begin(work: &Work) -> Result<Self, Failure> {
+        match &work.tuning {
+            None => begin_results(&work.experiment).map(Self::Results),
+            Some(_) => Ok(Self::Generation(Vec::new())),
+        }
+    }
+
+    /// With these packed rows.
+    pub(super) fn and(mut self, work: &Work, packed: &[Vec<u8>]) -> Result<Self, Failure> {
+        match &mut self {
+            Self::Results(results) => take_in(&work.experiment, results, packed)?,
+            Self::Generation(rows) => {
+                for part in packed {
+                    rows.extend(read_rows(part)?);
+                }
+            }
+        }
+        Ok(self)
+    }
 }
 
 /// What the rows of a step come to. May take seconds where there are very many.
-pub(super) fn fold(work: &Work, step: i64, packed: &[Vec<u8>]) -> Result<Folded, Failure> {
-    let rows = read_rows(packed)?;
-    match &work.tuning {
-        None => sum_up(&work.experiment, step, rows),
-        Some(tuning) => learn(&work.experiment, tuning.clone(), step, rows),
+pub(super) fn fold(work: &Work, step: i64, gathered: Gathered) -> Result<Folded, Failure> {
+    match (&work.tuning, gathered) {
+        (Some(tuning), Gathered::Generation(rows)) => learn(&work.experiment, tuning.clone(), step, rows),
+        (None, Gathered::Results(results)) => sum_up(&work.experiment, step, &results),
+        _ => Err((FailureReason::Document, "the step's rows are not of this kind of work".to_owned())),
     }
 }
 
@@ -182,15 +232,11 @@ fn text(summary: &impl Serialize) -> String {
     serde_json::to_string_pretty(summary).unwrap_or_default() + "\n"
 }
 
-fn sum_up(experiment: &Experiment, step: i64, rows: Vec<Row>) -> Result<Folded, Failure> {
-    let mut results = Results::new();
-    for row in rows {
-        results.insert(experiment, row).map_err(|error| (FailureReason::Storage, error.to_string()))?;
-    }
-    let (digest, summary) = if let Some(summary) = ReplicationSummary::of(experiment, &results) {
+fn sum_up(experiment: &Experiment, step: i64, results: &Results) -> Result<Folded, Failure> {
+    let (digest, summary) = if let Some(summary) = ReplicationSummary::of(experiment, results).map_err(storage)? {
         (digest_of_replication(&summary), text(&summary))
     } else {
-        let summary = Summary::of(experiment, &results);
+        let summary = Summary::of(experiment, results).map_err(storage)?;
         (digest(&summary), text(&summary))
     };
     let complete = Some(results.len() as u64) == experiment.runs();

@@ -22,7 +22,7 @@ mod upkeep;
 
 pub use claim::{Claim, Delivered, Folded, MadeRuns, NextStep, Order, Part, PartWork, StoredResult, Task, Tick};
 pub use engine::Engine;
-pub use experiment::{ExperimentJob, read_experiment, read_rows, read_search};
+pub use experiment::{ExperimentJob, begin_results, read_experiment, read_search, take_in};
 pub use new_job::{NewExperiment, NewJob, NewScenario, NewWork};
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;

@@ -6,19 +6,20 @@ use crate::document::brief;
 use crate::download::{Disposition, Download};
 use crate::error::Problem;
 use crate::experiment::{File, Found, Picture};
-use crate::jobs::{ExperimentRow, Job, JobState, StoreError, read_experiment, read_rows, read_search};
+use crate::jobs::{ExperimentRow, Job, JobState, StoreError, begin_results, read_experiment, read_search, take_in};
 use crate::state::AppState;
-use adaptarm_core::experiments::{Experiment, Results};
+use adaptarm_core::experiments::Experiment;
 use adaptarm_core::figures::{ExperimentFigure, experiment_metrics};
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::Response;
 use serde_json::json;
+use std::io::{BufWriter, IntoInnerError};
 use std::sync::Arc;
 use tokio::task::spawn_blocking;
 
 /// Packed parts of rows read at a time.
-const PAGE: i64 = 100;
+const PAGE: i64 = 10;
 
 /// What is known by now.
 pub(super) async fn result(state: &AppState, job: &Job, headers: &HeaderMap) -> Result<Response, Problem> {
@@ -78,9 +79,20 @@ pub(super) async fn file(state: &AppState, job: &Job, name: &str, headers: &Head
         return Ok(response);
     }
     let found = found(state, job, experiment.clone(), row).await?;
-    let bytes = blocking(move || file.bytes(&experiment, &found).map_err(failed)).await?;
-    let bytes = bytes.ok_or_else(|| not_ready(job, "this file"))?;
-    Ok(download.bytes(headers, Bytes::from(bytes)))
+    let written = blocking(move || on_disk(file, &experiment, &found).map_err(failed)).await?;
+    let (content, length) = written.ok_or_else(|| not_ready(job, "this file"))?;
+    Ok(download.file(headers, content.into(), length))
+}
+
+/// A file of an experiment, written down where nobody else sees it, and its length: it may be large.
+fn on_disk(file: File, experiment: &Experiment, found: &Found) -> anyhow::Result<Option<(std::fs::File, u64)>> {
+    let mut out = BufWriter::new(tempfile::tempfile()?);
+    if !file.write(experiment, found, &mut out)? {
+        return Ok(None);
+    }
+    let content = out.into_inner().map_err(IntoInnerError::into_error)?;
+    let length = content.metadata()?.len();
+    Ok(Some((content, length)))
 }
 
 /// All that the bytes of a file depend on.
@@ -110,24 +122,23 @@ async fn found(
         let search = search.await?.ok_or_else(|| not_ready(job, "its search"))?;
         return Ok(Arc::new(Found::Search(Box::new(search))));
     }
-    let (mut packed, mut from) = (Vec::new(), 0);
+    let (beginner, mut from) = (experiment.clone(), 0);
+    let mut results = blocking(move || Ok(begin_results(&beginner)?)).await?;
     loop {
         let page = state.store.packed_rows(job.id, row.step, from, PAGE).await.map_err(database)?;
         let whole = (page.len() as i64) < PAGE;
         from = page.last().map_or(from, |(first, _)| first + 1);
-        packed.extend(page.into_iter().map(|(_, rows)| rows));
+        let (experiment, packed) = (experiment.clone(), page.into_iter().map(|(_, rows)| rows).collect::<Vec<_>>());
+        results = blocking(move || {
+            take_in(&experiment, &mut results, &packed)?;
+            Ok(results)
+        })
+        .await?;
         if whole {
             break;
         }
     }
-    blocking(move || {
-        let mut results = Results::new();
-        for row in read_rows(&packed)? {
-            results.insert(&experiment, row).map_err(failed)?;
-        }
-        Ok(Arc::new(Found::with(&experiment, results, row.summary.as_deref())))
-    })
-    .await
+    blocking(move || Found::with(&experiment, results, row.summary.as_deref()).map(Arc::new).map_err(failed)).await
 }
 
 /// Why something stored could not be read or written down.

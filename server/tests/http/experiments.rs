@@ -96,7 +96,7 @@ async fn an_experiment_gives_to_the_byte_what_the_core_gives() {
     for document in [monte_carlo(30), grid()] {
         let job = submit(&app, &document).await;
         let (experiment, results) = in_a_row(&document);
-        let summary = Summary::of(&experiment, &results);
+        let summary = Summary::of(&experiment, &results).unwrap();
         let view = app.wait(&job, &["succeeded"]).await;
         assert_eq!((&view["kind"], &view["scenarios"]), (&document["kind"], &json!(results.len())));
         assert_eq!((&view["scenarios_done"], &view["progress"]), (&view["scenarios"], &json!(1.0)));
@@ -171,7 +171,7 @@ async fn a_replication_finds_what_the_core_finds_and_reports_it() {
     let app = App::new().await;
     let job = submit(&app, &replication()).await;
     let (experiment, results) = in_a_row(&replication());
-    let summary = ReplicationSummary::of(&experiment, &results).unwrap();
+    let summary = ReplicationSummary::of(&experiment, &results).unwrap().unwrap();
     assert_eq!((results.len(), summary.readings, summary.complete), (2 + 2 + 6, 12, 12));
     let view = app.wait(&job, &["succeeded"]).await;
     assert_eq!((&view["kind"], &view["scenarios_done"]), (&json!("replication"), &json!(10)));

@@ -126,9 +126,9 @@ fn run_by_run(document: &Value) -> Result<Option<String>> {
         };
         results.insert(&experiment, row)?;
     }
-    let summary = match ReplicationSummary::of(&experiment, &results) {
+    let summary = match ReplicationSummary::of(&experiment, &results)? {
         Some(summary) => serde_json::to_string_pretty(&summary),
-        None => serde_json::to_string_pretty(&Summary::of(&experiment, &results)),
+        None => serde_json::to_string_pretty(&Summary::of(&experiment, &results)?),
     };
     Ok(Some(summary? + "\n"))
 }

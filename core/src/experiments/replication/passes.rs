@@ -8,6 +8,7 @@ use super::readings::{Measured, Reading, each_reading};
 use super::search::Search;
 use super::summary::VerdictCounts;
 use crate::experiments::results::Results;
+use crate::experiments::row_store::RowStoreError;
 
 /// Readings told in full.
 const SHOWN: usize = 10;
@@ -73,7 +74,12 @@ fn size(factor: f64) -> f64 {
     factor.max(1.0 / factor)
 }
 
-pub(super) fn nearest(search: &Search, document: &ReplicationDocument, results: &Results, names: &Names) -> Nearest {
+pub(super) fn nearest(
+    search: &Search,
+    document: &ReplicationDocument,
+    results: &Results,
+    names: &Names,
+) -> Result<Nearest, RowStoreError> {
     let entries = entries();
     let mut found = Nearest {
         entries: vec![(None, 0); entries.len()],
@@ -115,8 +121,8 @@ pub(super) fn nearest(search: &Search, document: &ReplicationDocument, results: 
             found.best.insert(place, (reading, measured));
             found.best.truncate(SHOWN);
         }
-    });
-    found
+    })?;
+    Ok(found)
 }
 
 pub(super) fn plausible(
@@ -126,7 +132,7 @@ pub(super) fn plausible(
     nearest: &Nearest,
     limit: f64,
     names: &Names,
-) -> Plausible {
+) -> Result<Plausible, RowStoreError> {
     let entries = entries();
     let mut found = Plausible {
         count: 0,
@@ -144,8 +150,8 @@ pub(super) fn plausible(
                 found.at_best = CRITERIA.iter().map(|criterion| Some((criterion.test)(study).0)).collect();
             }
         }
-    });
-    found
+    })?;
+    Ok(found)
 }
 
 impl Plausible {

@@ -8,6 +8,8 @@ use super::document::{ReplicationDocument, UnitsDocument};
 use super::entries::{Entry, entries};
 use super::search::Search;
 use crate::experiments::results::Results;
+use crate::experiments::row::Row;
+use crate::experiments::row_store::RowStoreError;
 use crate::scalar::{exponential, logarithm};
 
 /// How the distance is told.
@@ -44,31 +46,21 @@ pub(super) fn measure(entries: &[Entry], study: &Study, units: UnitsDocument) ->
     distance.is_finite().then_some(Measured { ours, factors, distance })
 }
 
-/// What the rows make of the three schemes in a combination, up to a horizon and with indices over a window.
-pub(super) fn study(
-    search: &Search,
-    results: &Results,
-    combination: u64,
-    horizon: usize,
-    window: usize,
-) -> Option<Study> {
-    let options = search.options(combination);
-    let findings = |base| search.findings(results.row(search.index(&options, base))?, horizon, window);
-    Some([findings(0)?, findings(1)?, findings(2)?])
-}
-
 /// Visits every reading whose numbers there are, always in the same order.
 pub(super) fn each_reading(
     search: &Search,
     document: &ReplicationDocument,
     results: &Results,
     mut visit: impl FnMut(Reading, &Study, Measured),
-) {
+) -> Result<(), RowStoreError> {
     let entries = entries();
     for combination in 0..search.combinations() {
+        let Some(rows) = rows(search, results, combination)? else { continue };
         for horizon in 0..search.horizons.len() {
             for window in 0..search.windows.len() {
-                let Some(study) = study(search, results, combination, horizon, window) else { continue };
+                let findings = |row| search.findings(row, horizon, window);
+                let [Some(one), Some(two), Some(three)] = rows.each_ref().map(findings) else { continue };
+                let study = [one, two, three];
                 for &units in &document.units {
                     let Some(measured) = measure(&entries, &study, units) else { continue };
                     visit(Reading { combination, horizon, window, units }, &study, measured);
@@ -76,4 +68,15 @@ pub(super) fn each_reading(
             }
         }
     }
+    Ok(())
+}
+
+/// The rows of the three schemes in a combination.
+fn rows(search: &Search, results: &Results, combination: u64) -> Result<Option<[Row; 3]>, RowStoreError> {
+    let options = search.options(combination);
+    let row = |base| results.row(search.index(&options, base));
+    Ok(match [row(0)?, row(1)?, row(2)?] {
+        [Some(one), Some(two), Some(three)] => Some([one, two, three]),
+        _ => None,
+    })
 }

@@ -13,6 +13,7 @@ use crate::experiments::document::ExperimentKind;
 use crate::experiments::experiment::Experiment;
 use crate::experiments::results::Results;
 use crate::experiments::row::RowOutcome;
+use crate::experiments::row_store::RowStoreError;
 use serde::{Deserialize, Serialize};
 
 /// Summary of a replication.
@@ -152,16 +153,18 @@ impl ReplicationSummary {
     pub const FORMAT: &'static str = "adaptarm.replication_summary/1";
 
     /// Of the rows that there are; `None` of other kinds.
-    pub fn of(experiment: &Experiment, results: &Results) -> Option<Self> {
-        let (search, document) = (experiment.search()?, experiment.document().replication.as_ref()?);
+    pub fn of(experiment: &Experiment, results: &Results) -> Result<Option<Self>, RowStoreError> {
+        let (Some(search), Some(document)) = (experiment.search(), &experiment.document().replication) else {
+            return Ok(None);
+        };
         let names = names(document);
-        let nearest = nearest(search, document, results, &names);
+        let nearest = nearest(search, document, results, &names)?;
         let limit = nearest.best.first().map(|(_, best)| best.distance * document.plausible_factor);
-        let plausible = plausible(search, document, results, &nearest, limit.unwrap_or(0.0), &names);
-        let count = |outcome| results.rows().filter(|row| row.outcome == outcome).count();
+        let plausible = plausible(search, document, results, &nearest, limit.unwrap_or(0.0), &names)?;
+        let count = |outcome| results.outcomes().filter(|(_, it)| *it == outcome).count();
         let cuts = (document.horizons_s.len() * document.windows.len() * document.units.len()) as u64;
         let tell = |found: &Found| tell(search, document, &names, found);
-        Some(Self {
+        Ok(Some(Self {
             format: Self::FORMAT.to_owned(),
             core_version: crate::VERSION.to_owned(),
             experiment_hash: experiment.hash(),
@@ -183,7 +186,7 @@ impl ReplicationSummary {
             entries: entry_summaries(&nearest, &plausible),
             unknowns: unknown_summaries(&names, &nearest, &plausible),
             claims: claim_summaries(&plausible),
-        })
+        }))
     }
 }
 

@@ -28,10 +28,11 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, results:
     let experiment = sheet.experiment;
     let count = experiment.base_names().len();
     let mut maps = vec![Vec::new(); count];
-    for row in results.rows() {
-        let Some(place) = experiment.place(row.index) else { continue };
+    let numbers = results.column(sheet.column)?;
+    for (index, _) in results.outcomes() {
+        let Some(place) = experiment.place(index) else { continue };
         if let [x, y] = experiment.values(place.point)[..] {
-            maps[place.base].push(([x, y], row.metrics[sheet.column]));
+            maps[place.base].push(([x, y], numbers.of(index)));
         }
     }
     let values = || maps.iter().take(MOST).flatten().filter_map(|(_, value): &Cell| *value);

@@ -268,7 +268,7 @@ mod tests {
     }
 
     fn drawn(figure: ExperimentFigure, experiment: &Experiment, results: &Results, metric: &str) -> String {
-        let summary = Summary::of(experiment, results);
+        let summary = Summary::of(experiment, results).unwrap();
         experiment_svg(figure, experiment, Shown::Rows(results, &summary), Some(metric)).unwrap()
     }
 
@@ -302,7 +302,7 @@ mod tests {
         // Two strokes for each of the two refused cells.
         assert_eq!(svg.matches(&red).count(), 4, "{svg}");
         let column = experiment.columns().place(METRIC).unwrap();
-        let least = results.rows().filter_map(|row| row.metrics[column]).fold(f64::INFINITY, f64::min);
+        let least = results.rows().filter_map(|row| row.unwrap().metrics[column]).fold(f64::INFINITY, f64::min);
         assert!(svg.contains(&chart::short(least)));
     }
 

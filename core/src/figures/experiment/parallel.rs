@@ -23,8 +23,9 @@ pub(super) fn draw<S: Surface>(pen: &mut Pen<'_, S>, sheet: &Sheet<'_>, results:
     let all = experiment.fields().len();
     let fields = all.min(FIELDS);
     let mut lines: Vec<Vec<f64>> = Vec::new();
-    for row in results.rows() {
-        let (Some(place), Some(value)) = (experiment.place(row.index), row.metrics[sheet.column]) else { continue };
+    let numbers = results.column(sheet.column)?;
+    for (index, _) in results.outcomes() {
+        let (Some(place), Some(value)) = (experiment.place(index), numbers.of(index)) else { continue };
         let mut line: Vec<_> = experiment.values(place.point).into_iter().take(fields).collect();
         line.push(value);
         lines.push(line);

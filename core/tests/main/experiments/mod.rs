@@ -154,7 +154,7 @@ fn a_row_is_the_same_alone_and_beside_others() {
     let together = folded(experiment, together.clone());
     for n in 0..21 {
         let alone = rows(experiment, experiment.plan(n..n + 1));
-        assert_eq!(&alone[..], std::slice::from_ref(together.row(n).unwrap()));
+        assert_eq!(alone, [together.row(n).unwrap().unwrap()]);
         let run = experiment.plan(n..n + 1).remove(0).scenario.unwrap().run();
         let place = experiment.columns().place("index_e_deg_2").unwrap();
         assert_eq!(alone[0].metrics[place].unwrap().to_bits(), run.report.metrics.index_e_deg[1].to_bits());
@@ -169,13 +169,13 @@ proptest! {
         parts in prop::collection::vec(0..4_usize, 21),
     ) {
         let (experiment, rows) = study();
-        let expected = Summary::of(experiment, &folded(experiment, rows.clone()));
+        let expected = Summary::of(experiment, &folded(experiment, rows.clone())).unwrap();
         let mut results = Results::new();
         for part in 0..4 {
             let chosen = order.iter().filter(|n| parts[**n] == part).map(|n| rows[*n].clone());
-            results.merge(experiment, folded(experiment, chosen)).unwrap();
+            results.merge(experiment, &folded(experiment, chosen)).unwrap();
         }
-        prop_assert_eq!(Summary::of(experiment, &results), expected);
+        prop_assert_eq!(Summary::of(experiment, &results).unwrap(), expected);
     }
 }
 
@@ -212,7 +212,7 @@ fn pairing_removes_what_all_bases_share() {
     // Chance is a hundred times the difference between the first two; the third always diverges.
     let chance = |point: u64| 100.0 * (point as f64 * 0.7).sin();
     let results = made_up(&experiment, |point, _, base| (base < 2).then(|| 200.0 + chance(point) + base as f64));
-    let summary = Summary::of(&experiment, &results);
+    let summary = Summary::of(&experiment, &results).unwrap();
     assert_eq!(summary.groups[2].diverged.as_ref().unwrap().count, 200);
     assert!(summary.groups[0].metrics[0].statistics.sd.unwrap() > 50.0);
     let pair = summary.pairs.iter().find(|pair| pair.metric == "index_e_deg").unwrap();
@@ -232,7 +232,7 @@ fn a_ranking_between_equals_is_uncertain() {
     let disorder = |n: u64| (12.9898 * n as f64).sin() * 43_758.545_3;
     let value = |point: u64, base: usize| disorder(3 * point + base as u64).rem_euclid(1.0) + 1.0;
     let results = made_up(&experiment, |point, _, base| Some(value(point, base)));
-    let summary = Summary::of(&experiment, &results);
+    let summary = Summary::of(&experiment, &results).unwrap();
     let ranking = &summary.rankings[0];
     assert_eq!((ranking.blocks, ranking.resampled.as_deref()), (100, Some("draw")));
     let sum: f64 = ranking.bases.iter().map(|it| it.best_share.unwrap()).sum();
@@ -247,7 +247,7 @@ fn a_ranking_between_equals_is_uncertain() {
 fn fields_that_matter_are_found() {
     let experiment = sobol();
     let results = made_up(&experiment, |point, _, _| Some(experiment.values(point)[1].powi(3)));
-    let summary = Summary::of(&experiment, &results);
+    let summary = Summary::of(&experiment, &results).unwrap();
     assert_eq!(summary.sensitivities[1].field, "/scheme/gains/lambda/1");
     assert_eq!(summary.sensitivities[1].rank_correlation, 1.0);
     assert!(summary.sensitivities[0].rank_correlation.abs() < 0.5);
@@ -263,7 +263,7 @@ fn a_draw_that_makes_no_arm_is_refused_and_counted() {
     }]);
     let experiment = experiment("monte_carlo", &["proposed"], &json!({ "draws": 10, "fields": fields })).unwrap();
     let results = folded(&experiment, rows(&experiment, experiment.plan(0..10)));
-    let summary = Summary::of(&experiment, &results);
+    let summary = Summary::of(&experiment, &results).unwrap();
     let group = &summary.groups[0];
     assert!(group.refused > 0 && group.completed > 0 && group.refused + group.completed == 10, "{group:?}");
     assert!(summary.first_refusal.unwrap().why.starts_with("plant.theta_scale"));

@@ -2,7 +2,7 @@
 //! runs there are follows from the document and, in a tuning, from the search that the steps before left.
 
 use super::super::compute::{Failure, Members};
-use super::super::experiment::{Work, fold};
+use super::super::experiment::{Gathered, Work, fold};
 use super::super::{Delivered, MadeRuns, Order, Part};
 use super::{Stopped, Worker, retry};
 use crate::metrics::{self, FailureReason};
@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Packed parts of rows read at a time.
-const PAGE: i64 = 100;
+const PAGE: i64 = 10;
 
 fn storage(error: impl std::fmt::Display) -> Failure {
     (FailureReason::Storage, error.to_string())
@@ -108,19 +108,21 @@ impl Worker<'_> {
     pub(super) async fn fold(&mut self, part: &Part) -> Result<(), Stopped> {
         let work = self.open(part).await?;
         let store = self.shared.store.clone();
-        let (mut packed, mut from) = (Vec::new(), 0);
+        let (beginner, mut from) = (work.clone(), 0);
+        let mut gathered = self.on_pool(move || Gathered::begin(&beginner)).await?;
         loop {
             let page = self.alive(store.packed_rows(self.claim.job, part.step, from, PAGE)).await?;
             let page = page.map_err(Stopped::Unreachable)?;
             from = page.last().map_or(from, |(first, _)| first + 1);
             let whole = (page.len() as i64) < PAGE;
-            packed.extend(page.into_iter().map(|(_, rows)| rows));
+            let (work, packed) = (work.clone(), page.into_iter().map(|(_, rows)| rows).collect::<Vec<_>>());
+            gathered = self.on_pool(move || gathered.and(&work, &packed)).await?;
             if whole {
                 break;
             }
         }
         let step = part.step;
-        let folded = self.on_pool(move || fold(&work, step, &packed)).await?;
+        let folded = self.on_pool(move || fold(&work, step, gathered)).await?;
         let computed = self.computed();
         let delivered = retry(self.shared, || self.shared.store.deliver_fold(self.claim, &folded, computed)).await;
         match delivered.map_err(Stopped::Unreachable)? {

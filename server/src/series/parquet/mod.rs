@@ -10,35 +10,38 @@ pub use object::{ObjectError, decode, encode};
 use super::table::Table;
 use parquet::basic::{Compression, Encoding, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::DoubleType;
-use parquet::errors::Result;
+use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
+use std::io::Write;
 use std::sync::Arc;
 
 /// A table as a Parquet file, with the hash of the trajectory from which it was taken.
 pub fn from_table(table: &Table, trajectory_hash: &str) -> Result<Vec<u8>> {
-    let columns = (0..table.names().len()).map(|column| table.column(column).collect());
-    write(table.names(), columns, &[("adaptarm.trajectory_hash", trajectory_hash)], &[])
+    let columns = (0..table.names().len()).map(|column| Ok::<_, ParquetError>(table.column(column).collect()));
+    write(Vec::new(), table.names(), columns, &[("adaptarm.trajectory_hash", trajectory_hash)], &[])
 }
 
-/// Columns of one length as a Parquet file.
-pub fn from_columns(
+/// Writes columns of one length as a Parquet file; one of them is held at a time.
+pub fn write_columns<E: From<ParquetError>>(
+    out: impl Write + Send,
     names: &[String],
-    columns: impl Iterator<Item = Vec<f64>>,
+    columns: impl Iterator<Item = Result<Vec<f64>, E>>,
     metadata: &[(&str, &str)],
-) -> Result<Vec<u8>> {
-    write(names, columns, metadata, &[])
+) -> Result<(), E> {
+    write(out, names, columns, metadata, &[]).map(drop)
 }
 
-/// A file of these columns, all of one length. `lead` stands before the first of them; readers of Parquet skip it.
-fn write(
+/// Writes a file of these columns, all of one length. `lead` stands before the first of them; readers of Parquet skip it.
+fn write<W: Write + Send, E: From<ParquetError>>(
+    out: W,
     names: &[String],
-    columns: impl Iterator<Item = Vec<f64>>,
+    columns: impl Iterator<Item = Result<Vec<f64>, E>>,
     metadata: &[(&str, &str)],
     lead: &[u8],
-) -> Result<Vec<u8>> {
+) -> Result<W, E> {
     let metadata = metadata.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), (*value).to_owned())).collect();
     let properties = WriterProperties::builder()
         .set_created_by(concat!("adaptarm ", env!("CARGO_PKG_VERSION")).to_owned())
@@ -49,18 +52,18 @@ fn write(
         .set_statistics_enabled(EnabledStatistics::None)
         .set_offset_index_disabled(true)
         .build();
-    let mut file = SerializedFileWriter::new(Vec::new(), Arc::new(schema(names)?), Arc::new(properties))?;
-    file.write_all(lead)?;
+    let mut file = SerializedFileWriter::new(out, Arc::new(schema(names)?), Arc::new(properties))?;
+    file.write_all(lead).map_err(ParquetError::from)?;
     let mut group = file.next_row_group()?;
     for values in columns {
         // As many columns as the schema has names.
         if let Some(mut column) = group.next_column()? {
-            column.typed::<DoubleType>().write_batch(&values, None, None)?;
+            column.typed::<DoubleType>().write_batch(&values?, None, None)?;
             column.close()?;
         }
     }
     group.close()?;
-    file.into_inner()
+    Ok(file.into_inner()?)
 }
 
 fn schema(names: &[String]) -> Result<Type> {

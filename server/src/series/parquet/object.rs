@@ -67,8 +67,9 @@ pub fn encode(report: &Report, recording: &Recording) -> Result<Bytes, ObjectErr
         (KEY_JOINTS, joints.as_str()),
         (KEY_PARAMETERS, parameters.as_str()),
     ];
-    let column = |n: usize| recording.rows().iter().skip(n).step_by(shape.width()).copied().collect();
-    let mut bytes = write(&names(shape), (0..shape.width()).map(column), &metadata, &[0; SEAL])?;
+    let column =
+        |n: usize| Ok::<_, ParquetError>(recording.rows().iter().skip(n).step_by(shape.width()).copied().collect());
+    let mut bytes = write(Vec::new(), &names(shape), (0..shape.width()).map(column), &metadata, &[0; SEAL])?;
     let seal = blake3::hash(&bytes[CONTENT..]);
     bytes[MAGIC.len()..CONTENT].copy_from_slice(seal.as_bytes());
     Ok(bytes.into())
@@ -225,7 +226,8 @@ mod tests {
             assert!(matches!(decode(Bytes::from_static(b"").slice(..0)), Err(ObjectError::NotSamples(0))));
             assert!(matches!(decode(Bytes::copy_from_slice(bytes)), Err(ObjectError::NotSamples(_))));
         }
-        let plain = write(&["x".to_owned()], std::iter::once(vec![1.0]), &[], &[0; SEAL]).unwrap();
+        let column = std::iter::once(Ok::<_, ParquetError>(vec![1.0]));
+        let plain = write(Vec::new(), &["x".to_owned()], column, &[], &[0; SEAL]).unwrap();
         assert!(matches!(decode(plain.clone().into()), Err(ObjectError::Damaged(_))));
         assert!(matches!(decode(seal(plain)), Err(ObjectError::Unexpected { key: "format", .. })));
     }
