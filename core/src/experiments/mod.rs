@@ -22,6 +22,7 @@ mod results;
 mod row;
 mod sobol;
 mod statistics;
+mod steps;
 mod stream;
 mod summary;
 mod tuning;
