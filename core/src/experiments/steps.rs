@@ -9,7 +9,7 @@ use super::layout::Layout;
 use super::limits::{EXPERIMENT_LIMITS, conflict};
 use super::objective::PlantSet;
 use super::tuning::TuningPlan;
-use crate::scenario::{LIMITS, ScenarioError, check_clock};
+use crate::scenario::{LIMITS, ScenarioError, check_steps};
 use crate::simulation::Settings;
 
 const STEP: &str = "/integration/step_s";
@@ -85,7 +85,7 @@ fn varies(change: &Change) -> bool {
 
 /// Every run as it will be; one that will be refused takes no step.
 fn laid_out(layout: &Layout, bases: &[Base], count: &mut Count) {
-    let steps = |settings: Settings| match check_clock(settings.step_s, settings.duration_s) {
+    let steps = |settings: Settings| match check_steps(settings.step_s, settings.duration_s) {
         Ok(()) => settings.steps(),
         Err(_) => 0,
     };

@@ -152,7 +152,7 @@ fn check_gains(pointer: &str, gains: &impl GainSet, robot: &RobotData) -> Check 
 }
 
 /// Whether a run may have this step and this duration, s.
-pub(crate) fn check_clock(step_s: f64, duration_s: f64) -> Check {
+pub(crate) fn check_steps(step_s: f64, duration_s: f64) -> Check {
     range("/integration/step_s", step_s, LIMITS.step_s, "s")?;
     range("/integration/duration_s", duration_s, LIMITS.duration_s, "s")?;
     let steps = duration_s / step_s;
@@ -169,7 +169,7 @@ pub(crate) fn check_clock(step_s: f64, duration_s: f64) -> Check {
 
 fn resolve_integration(document: &mut ScenarioDocument) -> Check {
     let integration = &mut document.integration;
-    check_clock(integration.step_s, integration.duration_s)?;
+    check_steps(integration.step_s, integration.duration_s)?;
     let tolerances = [
         ("relative_tolerance", &mut integration.relative_tolerance, DEFAULT_RELATIVE_TOLERANCE),
         ("absolute_tolerance", &mut integration.absolute_tolerance, DEFAULT_ABSOLUTE_TOLERANCE),

@@ -268,7 +268,7 @@ async fn what_is_wrong_is_said_with_its_place() {
         .await;
     let long = |body: &mut Value| {
         body["spec"]["monte_carlo"]["draws"] = json!(50_000);
-        body["spec"]["bases"][0]["scenario"]["integration"]["duration_s"] = json!(12.0 * 1000.0);
+        body["spec"]["bases"][0]["scenario"]["integration"]["duration_s"] = json!(24.0 * 1000.0);
     };
     refused(&long, "/problems/conflict", "/spec/bases/0/scenario/integration").await;
     let schema = app.get("/api/v1/schema/experiment").await.json();
