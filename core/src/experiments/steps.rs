@@ -98,7 +98,9 @@ fn laid_out(layout: &Layout, bases: &[Base], count: &mut Count) {
     }
     let varying: Vec<_> = layout.fields.iter().enumerate().filter(|(_, change)| varies(change)).collect();
     if varying.is_empty() {
-        starts.iter().for_each(|(base, settings)| count.add(*base, *settings, steps(*settings), layout.points));
+        for (base, settings) in &starts {
+            count.add(*base, *settings, steps(*settings), layout.points);
+        }
         return;
     }
     for point in 0..layout.points {
