@@ -6,12 +6,11 @@
 use super::document::{ExperimentDocument, ExperimentKind};
 use super::fields::Tree;
 use super::layout::{Layout, Place};
-use super::limits::EXPERIMENT_LIMITS;
 use super::replication::Search;
 use super::resolve;
 use super::row::{ResultColumns, Row};
 use super::tuning::TuningPlan;
-use crate::scenario::{Problem, ReadError, Run, Scenario, ScenarioError, read_document, run_each};
+use crate::scenario::{ReadError, Run, Scenario, ScenarioError, read_document, run_each};
 use serde::Deserializer;
 use std::ops::{ControlFlow, Range};
 
@@ -41,6 +40,8 @@ pub struct Experiment {
     pub(super) bases: Vec<Base>,
     pub(super) columns: ResultColumns,
     pub(super) work: Work,
+    /// Integration steps of all runs.
+    pub(super) steps: u64,
 }
 
 /// A run to be made.
@@ -110,10 +111,9 @@ impl Experiment {
         }
     }
 
-    /// Integration steps of a run at most, as the bases have them; of a replication, as any of its options has them.
-    pub fn steps_per_run(&self) -> u64 {
-        let bases = self.base_scenarios().map(|scenario| scenario.settings().steps());
-        bases.chain(self.search().map(|search| search.steps)).max().unwrap_or(0)
+    /// Integration steps of all runs, of a tuning or a replication at most (an adaptive method may take more).
+    pub fn steps(&self) -> u64 {
+        self.steps
     }
 
     pub(super) fn layout(&self) -> Option<&Layout> {
@@ -179,10 +179,7 @@ impl Experiment {
     pub fn plan(&self, range: Range<u64>) -> Vec<PlannedRun> {
         let scenario = |index| match &self.work {
             Work::LaidOut(layout) => Some(self.scenario(layout, index)),
-            Work::Replicated(search) => {
-                let bound = |scenario| bounded(scenario, search.runs());
-                Some(search.scenario(&self.bases, index).and_then(bound))
-            }
+            Work::Replicated(search) => Some(search.scenario(&self.bases, index)),
             Work::Searched(_) => None,
         };
         let last = range.end.min(self.runs().unwrap_or(0));
@@ -201,7 +198,7 @@ impl Experiment {
         if let Some(seed) = layout.noise_seed(place.point) {
             tree.set_seed(seed);
         }
-        bounded(tree.scenario()?, layout.runs())
+        tree.scenario()
     }
 
     /// Makes runs, as many side by side as the machine has lanes, and hands over what is kept of each; breaks off where
@@ -232,14 +229,4 @@ impl Experiment {
     pub fn refused(&self, index: u64, why: &ScenarioError) -> Row {
         Row::refused(index, &self.columns, why.to_string())
     }
-}
-
-/// A scenario whose steps, times the number of runs, are within the limit.
-pub(super) fn bounded(scenario: Scenario, runs: u64) -> Result<Scenario, ScenarioError> {
-    let (steps, most) = (scenario.settings().steps() as f64, EXPERIMENT_LIMITS.steps);
-    if steps * runs as f64 <= most {
-        return Ok(scenario);
-    }
-    let message = format!("{steps} steps in each of {runs} runs are more than the {most:e} steps that are allowed");
-    Err(ScenarioError::new("/integration", Problem::Conflict { message }))
 }

@@ -22,6 +22,13 @@ pub(crate) struct Change {
     pub relative: bool,
 }
 
+impl Change {
+    /// What becomes of `number`.
+    pub fn of(&self, number: f64, value: f64) -> f64 {
+        if self.relative { value * number } else { value }
+    }
+}
+
 impl Tree {
     /// Of a scenario with everything filled in.
     pub fn of(scenario: &Scenario) -> Self {
@@ -63,7 +70,7 @@ impl Tree {
 
     /// Replaces the number that a change names; an error is about the scenario.
     pub fn apply(&mut self, change: &Change, value: f64) -> Result<(), ScenarioError> {
-        let value = if change.relative { value * self.number(&change.pointer, &change.pointer)? } else { value };
+        let value = change.of(self.number(&change.pointer, &change.pointer)?, value);
         match find_mut(&mut self.0, &change.pointer) {
             Some(Value::Float(number)) => *number = value,
             Some(Value::Integer(number)) => {

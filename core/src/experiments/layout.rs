@@ -64,27 +64,36 @@ pub struct Place {
 impl Design {
     /// Values of the fields at a point.
     pub fn values(&self, seed: u64, point: u64) -> Vec<f64> {
+        let place = self.place(seed, point);
+        place.into_iter().enumerate().map(|(field, share)| self.value(field, share)).collect()
+    }
+
+    /// Where a point is on each axis: the number of a grid's value, or a share in (0, 1) of a distribution.
+    pub fn place(&self, seed: u64, point: u64) -> Vec<f64> {
         match self {
             Self::Grid(axes) => {
                 let mut rest = point as usize;
-                let mut values = vec![0.0; axes.len()];
-                for (value, axis) in values.iter_mut().zip(axes).rev() {
-                    *value = axis[rest % axis.len()];
+                let mut place = vec![0.0; axes.len()];
+                for (number, axis) in place.iter_mut().zip(axes).rev() {
+                    *number = (rest % axis.len()) as f64;
                     rest /= axis.len();
                 }
-                values
+                place
             }
-            Self::Cube(filling, distributions) => {
-                let point = match filling {
-                    Filling::Random(purpose) => {
-                        let mut stream = Stream::new(seed, *purpose, point);
-                        distributions.iter().map(|_| stream.unit()).collect()
-                    }
-                    Filling::Latin(latin) => latin.point(point as u32),
-                    Filling::Sobol(sobol) => sobol.point(point),
-                };
-                distributions.iter().zip(point).map(|(distribution, u)| distribution.quantile(u)).collect()
+            Self::Cube(Filling::Random(purpose), distributions) => {
+                let mut stream = Stream::new(seed, *purpose, point);
+                distributions.iter().map(|_| stream.unit()).collect()
             }
+            Self::Cube(Filling::Latin(latin), _) => latin.point(point as u32),
+            Self::Cube(Filling::Sobol(sobol), _) => sobol.point(point),
+        }
+    }
+
+    /// The value of a field at its place on that axis.
+    pub fn value(&self, field: usize, place: f64) -> f64 {
+        match self {
+            Self::Grid(axes) => axes[field][place as usize],
+            Self::Cube(_, distributions) => distributions[field].quantile(place),
         }
     }
 }

@@ -23,6 +23,7 @@ mod row;
 mod row_store;
 mod sobol;
 mod statistics;
+mod steps;
 mod stream;
 mod summary;
 mod tuning;

@@ -3,7 +3,7 @@
 use super::cmaes::Cma;
 use super::distribution::Distribution;
 use super::document::{Aggregate, GoalDocument, PlantsDocument, TuningDocument, VariableDocument};
-use super::experiment::{Base, bounded};
+use super::experiment::Base;
 use super::fields::{Change, Tree};
 use super::limits::{EXPERIMENT_LIMITS, check_count, check_range, unknown};
 use super::resolve::{changes, check_fields, even, random_fields};
@@ -157,8 +157,12 @@ impl TuningPlan {
 
     /// More runs than this it never asks for.
     pub fn most_runs(&self) -> u64 {
-        let candidates = 1 + self.evaluations + u64::from(EXPERIMENT_LIMITS.population[1]);
-        candidates * self.plant_count(PlantSet::Search) + 2 * self.plant_count(PlantSet::Validation)
+        self.most_candidates() * self.plant_count(PlantSet::Search) + 2 * self.plant_count(PlantSet::Validation)
+    }
+
+    /// More candidates than this it never tries.
+    pub fn most_candidates(&self) -> u64 {
+        1 + self.evaluations + u64::from(EXPERIMENT_LIMITS.population[1])
     }
 
     /// The values that a point of the cube stands for. Beyond the cube its walls are mirrors.
@@ -170,21 +174,30 @@ impl TuningPlan {
         self.variables.iter().zip(point).map(value).collect()
     }
 
+    /// How a plant differs from the base, and the seed of its noise; the base's own where there are no plants.
+    pub fn plant(&self, set: PlantSet, plant: u64) -> (Vec<(&Change, f64)>, Option<u64>) {
+        let Some(plants) = &self.plants else { return (Vec::new(), None) };
+        let purpose = if set == PlantSet::Search { Purpose::Plant } else { Purpose::Validation };
+        let mut stream = Stream::new(self.seed, purpose, plant);
+        let fields = plants.fields.iter().zip(&plants.distributions);
+        let changes = fields.map(|(change, distribution)| (change, distribution.quantile(stream.unit()))).collect();
+        (changes, Some(stream.seed()))
+    }
+
     /// The scenario of a candidate on a plant.
     pub fn scenario(&self, base: &Base, values: &[f64], set: PlantSet, plant: u64) -> Result<Scenario, ScenarioError> {
         let mut tree = base.tree.clone();
-        if let Some(plants) = &self.plants {
-            let purpose = if set == PlantSet::Search { Purpose::Plant } else { Purpose::Validation };
-            let mut stream = Stream::new(self.seed, purpose, plant);
-            for (change, distribution) in plants.fields.iter().zip(&plants.distributions) {
-                tree.apply(change, distribution.quantile(stream.unit()))?;
-            }
-            tree.set_seed(stream.seed());
+        let (changes, seed) = self.plant(set, plant);
+        for (change, value) in changes {
+            tree.apply(change, value)?;
+        }
+        if let Some(seed) = seed {
+            tree.set_seed(seed);
         }
         for (variable, value) in self.variables.iter().zip(values) {
             tree.apply(&variable.change, *value)?;
         }
-        bounded(tree.scenario()?, self.most_runs())
+        tree.scenario()
     }
 
     /// What one run costs, its goals in units of `scales`.
@@ -244,6 +257,13 @@ impl TuningPlan {
             Aggregate::Mean => costs.sum::<f64>() / rows.len() as f64,
             Aggregate::Worst => costs.fold(f64::NEG_INFINITY, f64::max),
         }
+    }
+}
+
+impl Variable {
+    /// Least and greatest value.
+    pub fn ends(&self) -> [f64; 2] {
+        [0.0, 1.0].map(|share| self.range.quantile(share))
     }
 }
 

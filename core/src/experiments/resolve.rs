@@ -5,7 +5,7 @@ use super::document::{
     AxisDocument, CompareDocument, ConditionDocument, EXPERIMENT_FORMAT, ExperimentDocument, ExperimentKind,
     MonteCarloDocument, RandomFieldDocument, SweepDesign, SweepDocument,
 };
-use super::experiment::{Base, Experiment, Work, bounded};
+use super::experiment::{Base, Experiment, Work};
 use super::fields::{Change, Tree};
 use super::latin::LatinHypercube;
 use super::layout::{Condition, Design, Filling, Layout};
@@ -13,6 +13,7 @@ use super::limits::{EXPERIMENT_LIMITS, check_count, check_name, check_range, con
 use super::replication::Search;
 use super::row::ResultColumns;
 use super::sobol::Sobol;
+use super::steps;
 use super::stream::Purpose;
 use super::tuning::TuningPlan;
 use crate::scalar::{exponential, logarithm};
@@ -64,10 +65,8 @@ pub(super) fn resolve(mut document: ExperimentDocument) -> Result<Experiment, Sc
         let message = format!("asks for {runs} runs in all; at most {} are allowed", LIMITS.runs);
         return Err(conflict(format!("/{}", name_of(document.kind)), message));
     }
-    for (n, base) in bases.iter().enumerate() {
-        bounded(base.scenario.clone(), runs).map_err(|error| error.within(&format!("/bases/{n}/scenario")))?;
-    }
-    Ok(Experiment { document, bases, columns, work })
+    let steps = steps::of_all_runs(&work, &bases, runs, name_of(document.kind))?;
+    Ok(Experiment { document, bases, columns, work, steps })
 }
 
 /// The section called as the kind, which [`check_sections`] has seen.

@@ -40,6 +40,7 @@ pub use group::{Group, groups, run_each};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
 pub use side_by_side::SideBySide;
+pub(crate) use validate::check_steps;
 pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;

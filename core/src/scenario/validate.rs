@@ -151,18 +151,25 @@ fn check_gains(pointer: &str, gains: &impl GainSet, robot: &RobotData) -> Check 
     Ok(())
 }
 
-fn resolve_integration(document: &mut ScenarioDocument) -> Check {
-    let integration = &mut document.integration;
-    range("/integration/step_s", integration.step_s, LIMITS.step_s, "s")?;
-    range("/integration/duration_s", integration.duration_s, LIMITS.duration_s, "s")?;
-    let steps = integration.duration_s / integration.step_s;
+/// Whether a run may have this step and this duration, s.
+pub(crate) fn check_steps(step_s: f64, duration_s: f64) -> Check {
+    range("/integration/step_s", step_s, LIMITS.step_s, "s")?;
+    range("/integration/duration_s", duration_s, LIMITS.duration_s, "s")?;
+    let steps = duration_s / step_s;
     if steps > LIMITS.steps {
         let message = format!(
-            "{} s in steps of {} s are {steps:.3e} steps; at most {:.0e} are allowed: raise step_s or lower duration_s",
-            integration.duration_s, integration.step_s, LIMITS.steps
+            "{duration_s} s in steps of {step_s} s are {steps:.3e} steps; at most {:.0e} are allowed: raise step_s or lower \
+             duration_s",
+            LIMITS.steps
         );
         return Err(ScenarioError::new("/integration/step_s", Problem::Conflict { message }));
     }
+    Ok(())
+}
+
+fn resolve_integration(document: &mut ScenarioDocument) -> Check {
+    let integration = &mut document.integration;
+    check_steps(integration.step_s, integration.duration_s)?;
     let tolerances = [
         ("relative_tolerance", &mut integration.relative_tolerance, DEFAULT_RELATIVE_TOLERANCE),
         ("absolute_tolerance", &mut integration.absolute_tolerance, DEFAULT_ABSOLUTE_TOLERANCE),

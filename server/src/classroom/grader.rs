@@ -90,7 +90,7 @@ async fn of_reports(
         let exercise = work::exercise(&assignment)?;
         let gains = work::gains(&attempt.gains).ok_or("its gains cannot be read")?;
         let visibility = work::graded_on(&exercise);
-        let seed = work::seed(secret, attempt.assignment, attempt.student, visibility);
+        let seed = secrets::seed(secret, attempt.assignment, attempt.student, visibility);
         let grade = exercise.grade(&gains, seed, visibility, &reports).map_err(|error| error.to_string())?;
         let criteria = grade.public().criteria.iter().map(|criterion| json!(criterion)).collect();
         let feedback = json!(Feedback { score: grade.score, criteria }).to_string();

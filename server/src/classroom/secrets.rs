@@ -71,8 +71,8 @@ pub fn nonce(secret: &str, attempt: Uuid) -> String {
     hex::encode(mac(secret, &format!("receipt {attempt}")))
 }
 
-/// HMAC-SHA256 with the server's secret.
-fn mac(secret: &str, message: &str) -> [u8; 32] {
+/// HMAC-SHA256 with a secret of the server's.
+pub fn mac(secret: &str, message: &str) -> [u8; 32] {
     // HMAC takes keys of any length.
     let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(secret.as_bytes()) else {
         unreachable!("HMAC refuses no key");

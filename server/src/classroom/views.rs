@@ -164,7 +164,7 @@ pub fn exercise_for_student(share: &Share, secret: &str, student: uuid::Uuid, re
     if !share.assignment.settings.hints {
         document.hints.clear();
     }
-    let seed = work::seed(secret, share.assignment.id, student, Visibility::Visible);
+    let seed = secrets::seed(secret, share.assignment.id, student, Visibility::Visible);
     let runs = exercise.runs(&exercise.start(), seed, Visibility::Visible).map_err(|error| error.to_string())?;
     let visible: Vec<_> = runs.iter().map(|run| json!(run.document())).collect();
     let html = super::reading::html(&document).map_err(|error| error.to_string())?;

@@ -1,10 +1,10 @@
-//! A student's work on an assignment, put together from what is stored: conditions, attempts, mark; and the runs that gains
-//! make with that student's seeds.
+//! A student's work on an assignment, put together from what is stored: conditions, attempts, mark; and what is stored, read:
+//! the exercise, gains.
 
 use super::marks::{self, Mark, Window};
 use super::model::{Assignment, Attempt, AttemptState, Extension, Override};
+use super::problems;
 use super::store::ClassroomStore;
-use super::{problems, secrets};
 use crate::error::Problem;
 use crate::jobs::StoreError;
 use crate::routes::problems::database;
@@ -110,11 +110,6 @@ pub fn exercise(assignment: &Assignment) -> Result<Exercise, String> {
 /// The variants that count: the hidden ones, or where an exercise has none, those that everyone sees.
 pub fn graded_on(exercise: &Exercise) -> Visibility {
     if exercise.document().hidden.is_some() { Visibility::Hidden } else { Visibility::Visible }
-}
-
-/// A student's seed.
-pub fn seed(secret: &str, assignment: Uuid, student: Uuid, visibility: Visibility) -> u64 {
-    secrets::seed(secret, assignment, student, visibility)
 }
 
 /// Gains as the exercise takes them.

@@ -59,7 +59,7 @@ impl ExperimentJob {
             return Err(ScenarioError::new(format!("{pointer}/kind"), Problem::Conflict { message }).into());
         }
         let experiment = Experiment::new(document).map_err(|error| error.within(pointer))?;
-        let steps = experiment.steps_per_run().saturating_mul(experiment.most_runs());
+        let steps = experiment.steps();
         check_total(pointer, "integration steps", steps, limits.steps_per_job)?;
         Ok(Self { experiment, steps })
     }
@@ -90,7 +90,11 @@ impl ExperimentJob {
 
 /// The next runs of an experiment, cut into parts.
 fn shards(experiment: &Experiment, runs: u64) -> Vec<Shard> {
-    let cost_us = experiment.base_scenarios().map(plan::cost_us).fold(0.0, f64::max);
+    // Where the step varies, runs may be longer than the bases say.
+    let steps = (experiment.steps() / experiment.most_runs().max(1)) as f64;
+    let cost_us =
+        experiment.base_scenarios().map(|base| plan::cost_us(base).max(steps * plan::step_cost_us(base.scheme())));
+    let cost_us = cost_us.fold(0.0, f64::max);
     plan::plan_runs(runs, experiment.base_scenarios().len() as u64, cost_us, experiment.columns().names().len())
 }
 

@@ -7,6 +7,7 @@ use super::jwt::LEEWAY_S;
 use super::model::Platform;
 use super::refusal::Refusal;
 use crate::classroom::secrets::equal;
+use crate::document::brief;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use url::Url;
@@ -178,11 +179,13 @@ impl Claims {
             return Err(Refusal::new("nonce", "the launch answers another login"));
         }
         if self.version.as_deref() != Some("1.3.0") {
-            return Err(Refusal::new("version", "LTI 1.3.0 is spoken here"));
+            let found = said(self.version.as_deref());
+            return Err(Refusal::new("version", format!("the launch speaks LTI {found}; 1.3.0 is spoken here")));
         }
         let deployment = named(self.deployment.as_deref(), "deployment_id")?;
         if !platform.deployments.contains(&deployment) {
-            return Err(Refusal::new("deployment", format!("the deployment {deployment:?} is not registered here")));
+            let found = said(Some(&deployment));
+            return Err(Refusal::new("deployment", format!("the deployment {found} is not registered here")));
         }
         let target = self.target.as_deref().ok_or_else(|| Refusal::new("target", "the launch has no target link"))?;
         if !is_ours(target, base) || !state.is_for(target) {
@@ -219,7 +222,9 @@ impl Claims {
         let age_s = now_s as f64 - self.iat.ok_or_else(|| Refusal::new("claim", "the launch says no \"iat\""))?;
         // Not a number is neither.
         if !(-(LEEWAY_S as f64)..=OLDEST_S).contains(&age_s) {
-            return Err(Refusal::new("time", "the launch is too old or too new; do the clocks agree?"));
+            let detail =
+                format!("the launch is {age_s} s old, and not -{LEEWAY_S} to {OLDEST_S} s; do the clocks agree?");
+            return Err(Refusal::new("time", detail));
         }
         let several = matches!(&self.aud, OneOrMore::More(names) if names.len() > 1);
         let party = self.azp.as_ref();
@@ -251,7 +256,10 @@ impl Claims {
                 }
                 Ok(Wish::Choose(settings))
             }
-            _ => Err(Refusal::new("message_type", "only resource links and deep linking are known here")),
+            (other, _) => {
+                let (found, known) = (said(other), "LtiResourceLinkRequest and LtiDeepLinkingRequest");
+                Err(Refusal::new("message_type", format!("the message is of the type {found}; {known} are known here")))
+            }
         }
     }
 
@@ -288,6 +296,11 @@ fn is_ours(target: &str, base: &str) -> bool {
     let (Ok(target), Ok(base)) = (Url::parse(target), Url::parse(base)) else { return false };
     let own = base.path().trim_end_matches('/');
     target.origin() == base.origin() && target.path().strip_prefix(own) == Some("/lti/launch")
+}
+
+/// What a launch says, as a refusal repeats it.
+fn said(text: Option<&str>) -> String {
+    text.map_or_else(|| "null".to_owned(), |text| format!("\"{}\"", brief(text)))
 }
 
 /// A platform's name for something of its own.

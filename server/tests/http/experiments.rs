@@ -268,11 +268,25 @@ async fn what_is_wrong_is_said_with_its_place() {
         .await;
     let long = |body: &mut Value| {
         body["spec"]["monte_carlo"]["draws"] = json!(50_000);
-        body["spec"]["bases"][0]["scenario"]["integration"]["duration_s"] = json!(12.0 * 1000.0);
+        body["spec"]["bases"][0]["scenario"]["integration"]["duration_s"] = json!(24.0 * 1000.0);
     };
     refused(&long, "/problems/conflict", "/spec/bases/0/scenario/integration").await;
     let schema = app.get("/api/v1/schema/experiment").await.json();
     assert!(schema["properties"]["monte_carlo"].is_object(), "{schema}");
     let limits = app.get("/api/v1/limits").await.json();
     assert_eq!(limits["experiment"]["runs"], 200_000);
+}
+
+/// The step is a field like any other: what it makes of the runs counts.
+#[tokio::test]
+async fn steps_that_a_field_makes_count_towards_the_limit() {
+    let app = App::with(|config| config.limits.steps_per_job = 1_000_000).await;
+    let duration_s = short("proposed")["integration"]["duration_s"].as_f64().unwrap();
+    for (field, value, steps) in [("step_s", 1e-6, duration_s / 1e-6), ("duration_s", 2000.0, 2000.0 / 1e-3)] {
+        let mut asked = grid();
+        asked["sweep"]["axes"][1] = json!({ "field": format!("/integration/{field}"), "values": [value] });
+        let problem = app.post(JOBS, request(&asked)).await.problem(422, "/problems/too-much");
+        assert_eq!((&problem["pointer"], &problem["what"]), (&json!("/spec"), &json!("integration steps")));
+        assert_eq!((&problem["total"], &problem["most"]), (&json!(4 * steps.round() as u64), &json!(1_000_000)));
+    }
 }

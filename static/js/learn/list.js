@@ -1,45 +1,31 @@
 // A student's assignments: what is due when, how many attempts are left, and the mark.
 
 import { client } from "../classroom/client.js";
-import { badge, points, pointsOf, showError } from "../classroom/parts.js";
+import { badge, points, pointsOf } from "../classroom/parts.js";
 import { momentElement } from "../classroom/times.js";
+import { View } from "../classroom/view.js";
 import { element } from "../dom.js";
 import { localized, texts } from "../strings/classroom.js";
 
 const own = texts.list;
-const root = document.documentElement;
 
-export class ListView {
-  node = element("div", { class: "class-view" });
-  #failure = element("div", { class: "failure" });
+export class ListView extends View {
   #items = element("ul", { class: "assignment-list" });
-  #stopped = false;
 
   constructor() {
-    this.node.append(element("h1", { tabindex: "-1" }, own.title), this.#failure, this.#items);
+    super();
+    this.node.append(element("h1", { tabindex: "-1" }, own.title), this.failure, this.#items);
   }
 
-  async start() {
-    try {
-      const { assignments } = await client.get("assignments");
-      if (this.#stopped) {
-        return;
-      }
-      this.#items.replaceChildren(...assignments.map(item));
-      if (assignments.length === 0) {
-        this.#items.replaceWith(element("p", { class: "empty" }, own.empty));
-      }
-      root.dataset.state = "ready";
-    } catch (error) {
-      if (!this.#stopped) {
-        root.dataset.state = "failed";
-        showError(this.#failure, error, () => this.start());
-      }
+  load() {
+    return client.get("assignments");
+  }
+
+  draw({ assignments }) {
+    this.#items.replaceChildren(...assignments.map(item));
+    if (assignments.length === 0) {
+      this.#items.replaceWith(element("p", { class: "empty" }, own.empty));
     }
-  }
-
-  stop() {
-    this.#stopped = true;
   }
 }
 

@@ -3,46 +3,21 @@
 import { client } from "../classroom/client.js";
 import { secretIn } from "../classroom/entry.js";
 import { field, form } from "../classroom/form.js";
-import { card, secretLink, showError } from "../classroom/parts.js";
+import { card } from "../classroom/parts.js";
+import { SignInView } from "../classroom/sign-in.js";
 import { element } from "../dom.js";
-import { passwordForm } from "../learn/enter.js";
 import { texts } from "../strings/classroom.js";
 
 const own = texts.teachEnter;
 const root = document.documentElement;
 
-export class EnterView {
-  node = element("div", { class: "class-view narrow" });
-  #page;
-  #secret;
-
-  constructor(page, secret) {
-    this.#page = page;
-    this.#secret = secret;
-  }
-
+export class EnterView extends SignInView {
   async start() {
-    const { kind, secret } = this.#secret ?? {};
-    if (kind === "key") {
-      await this.#byKey(secret);
-    } else if (kind === "invitation") {
+    const { kind, secret } = this.secret ?? {};
+    if (kind === "invitation") {
       this.#redeem(secret);
     } else {
-      this.#offer();
-    }
-  }
-
-  stop() {}
-
-  async #byKey(key) {
-    try {
-      await client.begin("session", { key });
-      this.#page.done();
-    } catch (error) {
-      this.#offer();
-      const place = element("div", { class: "failure" });
-      this.node.querySelector("h1").after(place);
-      showError(place, error, error.isPassing ? () => this.#byKey(key) : null);
+      await super.start();
     }
   }
 
@@ -57,24 +32,14 @@ export class EnterView {
       submit: own.create,
       act: async ({ password, ...values }) => {
         const body = { invitation, ...values, ...(password ? { password } : {}) };
-        this.#keepLink(await client.ask("POST", "teachers", body));
+        this.keepLink(await client.ask("POST", "teachers", body));
       },
     });
     this.node.replaceChildren(element("h1", { tabindex: "-1" }, own.invited), element("p", { class: "lead" }, own.invitedLead), card(own.account, redeem));
     root.dataset.state = "ready";
   }
 
-  #keepLink(session) {
-    const done = async () => {
-      await client.load();
-      this.#page.done();
-    };
-    this.node.replaceChildren(element("h1", { tabindex: "-1" }, texts.enter.welcome(session.name)), secretLink(session, done));
-    this.node.querySelector("h1").focus();
-    root.dataset.view = "secret";
-  }
-
-  #offer() {
+  offer() {
     const byLink = form({
       id: "by-link",
       groups: [field({ name: "link", label: own.link, help: own.linkHelp, spellcheck: "false" })],
@@ -83,15 +48,14 @@ export class EnterView {
         if (link.includes("#invitation=")) {
           this.#redeem(secretIn(link));
         } else {
-          await client.begin("session", { key: secretIn(link) });
-          this.#page.done();
+          await this.signIn({ key: secretIn(link) });
         }
       },
     });
     this.node.replaceChildren(
       element("h1", { tabindex: "-1" }, own.title),
       element("p", { class: "lead" }, own.lead),
-      card(own.signInTitle, byLink, passwordForm(() => this.#page.done())),
+      card(own.signInTitle, byLink, this.passwordForm()),
       card(own.firstTitle, element("p", {}, own.firstHelp), element("pre", {}, element("code", {}, "adaptarm teacher link"))),
       element("p", {}, element("a", { href: "learn.html" }, own.student)),
     );

@@ -3,6 +3,7 @@
 
 mod mistakes;
 mod replication;
+mod steps;
 mod tuning;
 
 use adaptarm_core::experiments::{Experiment, ExperimentDocument, PlannedRun, Results, Row, RowOutcome, Summary};

@@ -97,7 +97,7 @@ impl Asked {
         if let (Some(opens), Some(deadline)) = (self.opens_at, self.deadline)
             && deadline <= opens
         {
-            let message = "is not after opens_at".to_owned();
+            let message = format!("{deadline} is not after opens_at, {opens}");
             return Err(ScenarioError::new("/deadline", Wrong::Conflict { message }));
         }
         let Self { opens_at, deadline, attempts, counts, late, explanation, hints, leaderboard, .. } = self;

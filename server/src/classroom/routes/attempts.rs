@@ -138,7 +138,7 @@ fn hidden_runs(
     student: Uuid,
 ) -> Result<Vec<NewScenario>, Problem> {
     let visibility = work::graded_on(exercise);
-    let seed = work::seed(secret, assignment, student, visibility);
+    let seed = secrets::seed(secret, assignment, student, visibility);
     let runs = exercise.runs(gains, seed, visibility).map_err(|error| {
         if error.pointer.starts_with("/gains") { error.into() } else { crate::routes::internal(error) }
     })?;
@@ -221,7 +221,7 @@ pub(super) async fn reveal(
         return Err(not_ready(&attempt, "its variants are shown when it is graded and nobody can hand in any more"));
     }
     let (exercise, secret) = (exercise(&work.assignment)?, &state.desk.secret);
-    let seed = work::seed(secret, attempt.assignment, student.id, work::graded_on(&exercise));
+    let seed = secrets::seed(secret, attempt.assignment, student.id, work::graded_on(&exercise));
     let nonce = Nonce::try_from(secrets::nonce(secret, attempt.id)).map_err(crate::routes::internal)?;
     let mut reveal = Reveal::new(seed, nonce, Some(&exercise));
     if let Some(document) = &mut reveal.exercise {

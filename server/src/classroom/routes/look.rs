@@ -4,7 +4,7 @@ use super::super::gradebook::{Shape, table};
 use super::super::model::{Assignment, Attempt, Person, Role};
 use super::super::session::{Signed, Teacher};
 use super::super::work::{self, Work};
-use super::super::{board, problems, reading, views};
+use super::super::{board, problems, reading, secrets, views};
 use super::{exercise, own_assignment, own_class, own_pair};
 use crate::api::{Name, Query};
 use crate::document::brief;
@@ -108,7 +108,7 @@ pub(super) async fn work(
 fn runs(exercise: &Exercise, secret: &str, attempt: &Attempt) -> Vec<Value> {
     let gains: BTreeMap<_, _> = work::gains(&attempt.gains).unwrap_or_default();
     let of = |visibility| {
-        let seed = work::seed(secret, attempt.assignment, attempt.student, visibility);
+        let seed = secrets::seed(secret, attempt.assignment, attempt.student, visibility);
         let runs = exercise.runs(&gains, seed, visibility).unwrap_or_default();
         let hidden = visibility == Visibility::Hidden;
         runs.iter().map(|run| json!({ "hidden": hidden, "scenario": run.document() })).collect::<Vec<_>>()

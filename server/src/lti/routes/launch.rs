@@ -69,7 +69,11 @@ async fn begin_login(state: &AppState, headers: &HeaderMap, login: &Login) -> Re
             && login.client_id.as_ref().is_none_or(|client| *client == platform.client_id)
             && login.lti_deployment_id.as_ref().is_none_or(|deployment| platform.deployments.contains(deployment))
     });
-    let platform = fitting.next().ok_or_else(|| Refusal::new("platform", "no such platform is registered here"))?;
+    let platform = fitting.next().ok_or_else(|| {
+        let issuer = crate::document::brief(&login.iss);
+        let detail = format!("no platform \"{issuer}\" with the login's client_id and deployment is registered here");
+        Refusal::new("platform", detail)
+    })?;
     if fitting.next().is_some() {
         return Err(Refusal::new(
             "platform",

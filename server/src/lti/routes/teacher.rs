@@ -1,9 +1,11 @@
 //! What teachers do about platforms: registering them, fetching a course's members, seeing whether grades arrive.
 
+use super::super::model::{Context, Platform};
 use super::super::refusal::LtiError;
 use super::super::registration::NewPlatform;
 use super::super::roster;
 use crate::api::{JsonBytes, Name};
+use crate::classroom::model::Person;
 use crate::classroom::session::Teacher;
 use crate::classroom::{own_assignment, own_class, problems};
 use crate::document;
@@ -67,12 +69,19 @@ pub(super) async fn course(
     Teacher(teacher): Teacher,
     Name(class): Name,
 ) -> Result<Json<Value>, Problem> {
-    let class = own_class(&state, &teacher, &class).await?;
+    Ok(Json(match course_of(&state, &teacher, &class).await? {
+        Some((platform, context)) => json!({ "platform": platform.issuer, "members": context.members_url.is_some() }),
+        None => json!({ "platform": null, "members": false }),
+    }))
+}
+
+/// The course that a teacher's class belongs to.
+async fn course_of(state: &AppState, teacher: &Person, class: &str) -> Result<Option<(Platform, Context)>, Problem> {
+    let class = own_class(state, teacher, class).await?;
     let store = &state.lti.store;
-    let context = store.context_of(class.id).await.map_err(LtiError::from)?;
-    let Some(context) = context else { return Ok(Json(json!({ "platform": null, "members": false }))) };
+    let Some(context) = store.context_of(class.id).await.map_err(LtiError::from)? else { return Ok(None) };
     let platform = store.platform(context.platform).await.map_err(LtiError::from)?.ok_or_else(problems::nothing)?;
-    Ok(Json(json!({ "platform": platform.issuer, "members": context.members_url.is_some() })))
+    Ok(Some((platform, context)))
 }
 
 /// Makes students of those who attend the class's course.
@@ -81,10 +90,7 @@ pub(super) async fn fetch_members(
     Teacher(teacher): Teacher,
     Name(class): Name,
 ) -> Result<Json<Value>, Problem> {
-    let class = own_class(&state, &teacher, &class).await?;
-    let store = &state.lti.store;
-    let context = store.context_of(class.id).await.map_err(LtiError::from)?.ok_or_else(problems::nothing)?;
-    let platform = store.platform(context.platform).await.map_err(LtiError::from)?.ok_or_else(problems::nothing)?;
+    let (platform, context) = course_of(&state, &teacher, &class).await?.ok_or_else(problems::nothing)?;
     Ok(Json(json!(roster::fetch(&state.lti, &platform, &context).await?)))
 }
 

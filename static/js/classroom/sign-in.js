@@ -1,0 +1,80 @@
+// What the ways in for students and teachers share: a personal link that is opened or pasted, login and password, and the
+// new link that is shown once.
+
+import { element } from "../dom.js";
+import { texts } from "../strings/classroom.js";
+import { client } from "./client.js";
+import { field, form } from "./form.js";
+import { secretLink, showError } from "./parts.js";
+
+const own = texts.enter;
+const root = document.documentElement;
+
+export class SignInView {
+  node = element("div", { class: "class-view narrow" });
+  secret;
+  #page;
+
+  /** `secret` is what the address brought, if it brought something. */
+  constructor(page, secret) {
+    this.#page = page;
+    this.secret = secret;
+  }
+
+  /** Shows the ways in. */
+  offer() {}
+
+  async start() {
+    if (this.secret?.kind === "key") {
+      await this.byKey(this.secret.secret);
+    } else {
+      this.offer();
+    }
+  }
+
+  stop() {}
+
+  /** A personal link was opened: nothing to type. */
+  async byKey(key) {
+    try {
+      await this.signIn({ key });
+    } catch (error) {
+      this.offer();
+      const place = element("div", { class: "failure" });
+      this.node.querySelector("h1").after(place);
+      showError(place, error, error.isPassing ? () => this.byKey(key) : null);
+    }
+  }
+
+  /** Begins a session with a key, or with login and password. */
+  async signIn(values) {
+    await client.begin("session", values);
+    this.#page.done();
+  }
+
+  /** The link is shown before anything else: it is the only way back. */
+  keepLink(session) {
+    const done = async () => {
+      await client.load();
+      this.#page.done();
+    };
+    this.node.replaceChildren(element("h1", { tabindex: "-1" }, own.welcome(session.name)), secretLink(session, done));
+    this.node.querySelector("h1").focus();
+    root.dataset.view = "secret";
+  }
+
+  /** Signing in by login and password, folded. */
+  passwordForm() {
+    const byPassword = form({
+      id: "by-password",
+      groups: [
+        field({ name: "login", label: texts.login, autocomplete: "username", autocapitalize: "none", spellcheck: "false" }),
+        field({ name: "password", label: texts.password, type: "password", autocomplete: "current-password" }),
+      ],
+      submit: own.signIn,
+      primary: false,
+      act: (values) => this.signIn(values),
+    });
+    return element("details", { class: "fold" }, element("summary", {}, own.byPassword), byPassword);
+  }
+}
