@@ -30,14 +30,11 @@ pub fn board(work: &Work, students: &[Person]) -> Value {
     }
     let feedbacks: Vec<_> = behind.iter().filter_map(|attempt| attempt.feedback.as_ref()).collect();
     let criteria = criteria(&feedbacks.iter().map(|feedback| feedback.criteria.as_slice()).collect::<Vec<_>>());
-    let commonest = criteria.iter().filter(|own| own["failing"].as_u64() > Some(0));
-    // Of several the first in the rubric.
-    let commonest = commonest.rev().max_by_key(|own| own["failing"].as_u64()).map(|own| own["id"].clone());
     let mean = (!points.is_empty()).then(|| points.iter().sum::<f64>() / points.len() as f64);
     json!({
         "assignment": views::assignment(&work.assignment, &work.extensions), "students": rows, "started": started,
         "graded": points.len(), "mean_points": mean, "distribution": spread(&points, work.assignment.settings.points),
-        "criteria": criteria, "commonest_failure": commonest,
+        "commonest_failure": commonest(&criteria), "criteria": criteria,
     })
 }
 
@@ -67,9 +64,28 @@ fn criteria(graded: &[&[Value]]) -> Vec<Value> {
         .collect()
 }
 
+/// The criterion that most people miss; of several the one that is met worst, of these the first in the rubric.
+fn commonest(criteria: &[Value]) -> Option<Value> {
+    let missed = criteria.iter().filter(|own| own["failing"].as_u64() > Some(0));
+    let lost = |own: &Value| 1.0 - own["mean_share"].as_f64().unwrap_or(1.0);
+    let order = |one: &&Value, other: &&Value| {
+        one["failing"].as_u64().cmp(&other["failing"].as_u64()).then(lost(one).total_cmp(&lost(other)))
+    };
+    missed.rev().max_by(order).map(|own| own["id"].clone())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_criteria_missed_by_as_many_the_worst_met_is_the_commonest_failure() {
+        let own =
+            |id: &str, failing: u32, mean_share: f64| json!({ "id": id, "failing": failing, "mean_share": mean_share });
+        assert_eq!(commonest(&[own("a", 2, 0.9), own("b", 2, 0.1), own("c", 1, 0.0)]), Some(json!("b")));
+        assert_eq!(commonest(&[own("a", 2, 0.5), own("b", 2, 0.5)]), Some(json!("a")));
+        assert_eq!(commonest(&[own("a", 0, 1.0)]), None);
+    }
 
     #[test]
     fn points_are_spread_over_ten_ranges_of_which_the_last_has_both_ends() {
