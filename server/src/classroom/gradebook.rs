@@ -36,7 +36,7 @@ impl Shape {
 
 /// The table.
 pub fn table(shape: Shape, class: &str, students: &[Person], works: &[Work]) -> String {
-    let titles: Vec<_> = works.iter().map(|work| title(&work.assignment)).collect();
+    let titles = apart(works.iter().map(|work| title(&work.assignment)).collect());
     let mut lines = head(shape, &titles, works);
     for student in students {
         let number = student.number.clone().unwrap_or_default();
@@ -64,7 +64,23 @@ pub fn table(shape: Shape, class: &str, students: &[Person], works: &[Work]) -> 
         }
         lines.push(line);
     }
-    lines.iter().map(|line| write(line)).collect()
+    let lines: String = lines.iter().map(|line| write(line)).collect();
+    match shape {
+        // Excel takes a file without a byte-order mark for one of an old code page.
+        Shape::Plain => format!("\u{feff}{lines}"),
+        Shape::Moodle | Shape::Canvas => lines,
+    }
+}
+
+/// Titles of which no two are the same: importers find columns by name, and take two of one name for one.
+fn apart(titles: Vec<String>) -> Vec<String> {
+    let mut told: Vec<String> = Vec::new();
+    for title in titles {
+        let others = (2..).map(|n| format!("{title} ({n})"));
+        let free = std::iter::once(title.clone()).chain(others).find(|name| !told.contains(name));
+        told.extend(free);
+    }
+    told
 }
 
 fn head(shape: Shape, titles: &[String], works: &[Work]) -> Vec<Vec<String>> {
@@ -104,4 +120,15 @@ fn write(cells: &[String]) -> String {
         }
     };
     cells.iter().map(cell).collect::<Vec<_>>().join(",") + "\r\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_of_one_exercise_given_out_twice_have_names_of_their_own() {
+        let titles = ["Hold it", "Track", "Hold it", "Hold it (2)", "Hold it"].map(str::to_owned);
+        assert_eq!(apart(titles.to_vec()), ["Hold it", "Track", "Hold it (2)", "Hold it (2) (2)", "Hold it (3)"]);
+    }
 }
