@@ -2,7 +2,7 @@
 //!
 //! Where there is no password to compare with, one that nobody has is compared all the same: the answer takes as long.
 
-use super::texts::{PASSWORD_CHARS, check_length};
+use super::texts::{PASSWORD_CHARS, check_length, malformed};
 use crate::error::Problem;
 use adaptarm_core::scenario::ScenarioError;
 use argon2::Argon2;
@@ -21,8 +21,11 @@ static AT_A_TIME: Semaphore = Semaphore::const_new(2);
 /// The hash of a password that nobody knows.
 static NOBODY: LazyLock<Option<String>> = LazyLock::new(|| digest(&super::secrets::fresh().ok()?));
 
-/// Whether a password has a length that is allowed.
+/// Whether a password has a length that is allowed, and is more than blanks.
 pub fn check(pointer: &str, password: &str) -> Result<(), ScenarioError> {
+    if !password.is_empty() && password.trim().is_empty() {
+        return Err(malformed(pointer, "is made of blanks alone"));
+    }
     check_length(pointer, password, PASSWORD_CHARS)
 }
 

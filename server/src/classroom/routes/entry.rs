@@ -177,8 +177,9 @@ pub(super) async fn join(
     desk.check_code(address)?;
     let login = secrets::code().map_err(crate::routes::internal)?;
     let (mut new, key) = new_person(Role::Student, name, login, None)?;
-    // People copy spaces and small letters along.
-    let code = secrets::hash(&code.trim().to_ascii_uppercase());
+    // People write small letters, and groups of letters with blanks or hyphens between them.
+    let code: String = code.chars().filter(|c| !c.is_whitespace() && *c != '-').collect();
+    let code = secrets::hash(&code.to_ascii_uppercase());
     match desk.store.join(&code, &new, STUDENTS).await.map_err(database)? {
         (Entered::Done, class) => {
             new.person.class = class;

@@ -90,7 +90,9 @@ pub fn passwords() -> Result<()> {
     let student = Visitor::student(&server.url, &code, "Bea")?;
     let mut elsewhere = Visitor::new(&server.url);
     elsewhere.enter("/session", &json!({ "key": student.text("key")? }))?;
-    student.put("/me/password", &json!({ "password": "too short" }))?.expect_status(422)?;
+    for wrong in ["too short", "            "] {
+        student.put("/me/password", &json!({ "password": wrong }))?.expect_status(422)?;
+    }
     student.put("/me/password", &json!({ "password": "correct horse" }))?.expect_status(204)?;
     elsewhere.get("/assignments")?.expect_status(401)?;
     student.get("/assignments")?.expect_status(200)?;
@@ -140,6 +142,9 @@ pub fn codes() -> Result<()> {
     for name in ["", " ", "=HYPERLINK(1)", "a\u{7}b", &"x".repeat(81)] {
         join(&code, name)?.expect_status(422)?;
     }
+    let (one, other) = code.split_at(4);
+    join(&format!("{one}-{other}"), "Dora")?.expect_status(201)?;
+    join(&format!("{one} {other}"), "Eva")?.expect_status(201)?;
     let student = Visitor::student(&server.url, &format!(" {} ", code.to_lowercase()), "Bea")?;
     ensure!(student.session["class"]["name"] == "A", "{}", student.session);
     let strip = |mut problem: Value| {
