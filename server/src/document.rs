@@ -35,6 +35,16 @@ pub enum DocumentError {
     Invalid(#[from] ScenarioError),
 }
 
+impl DocumentError {
+    /// The same in words, about a document of this kind: what the core calls a scenario may be another one as a whole.
+    pub fn about(&self, kind: &str) -> String {
+        match self {
+            Self::Invalid(error) if error.pointer.is_empty() => format!("{kind}: {}", error.problem),
+            _ => self.to_string(),
+        }
+    }
+}
+
 fn at(pointer: &str, message: &str) -> String {
     let malformed = Problem::Malformed { message: format!("not JSON: {message}") };
     if pointer.is_empty() { malformed.to_string() } else { ScenarioError::new(pointer, malformed).to_string() }
@@ -166,6 +176,14 @@ mod tests {
         for kind in [r#"{"scheme": {"kind": 3}}"#, r#"{"trajectory": {"kind": 3}}"#] {
             assert!(error(kind).ends_with(".kind: invalid type: integer `3`, expected a name"), "{}", error(kind));
         }
+    }
+
+    #[test]
+    fn a_document_that_is_no_scenario_is_not_called_one() {
+        let missing = parse_scenario(b"{}").unwrap_err();
+        assert!(missing.about("receipt").starts_with("receipt: missing field"), "{}", missing.about("receipt"));
+        let below = parse_scenario(br#"{"trajectory": 5}"#).unwrap_err();
+        assert_eq!(below.about("receipt"), below.to_string());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::run::read_input;
-use crate::document::parse;
+use crate::document::{DocumentError, parse};
 use crate::experiment::{CheckpointError, Refused, Settings, run as work};
 use crate::stdout::print;
 use adaptarm_core::experiments::{Experiment, ExperimentDocument};
@@ -46,8 +46,9 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (name, bytes) = read_input(&arguments.file)?;
     let wrong = |error: &dyn std::fmt::Display| Failure::input(format!("{name}: {error}"));
-    let document = parse::<ExperimentDocument>(&bytes).map_err(|error| wrong(&error))?;
-    let experiment = Experiment::new(document).map_err(|error| wrong(&error))?;
+    let document = parse::<ExperimentDocument>(&bytes).map_err(|error| wrong(&error.about("experiment")))?;
+    let experiment =
+        Experiment::new(document).map_err(|error| wrong(&DocumentError::from(error).about("experiment")))?;
     let settings = Settings {
         threads: arguments.threads.map(|threads| threads as usize),
         out: arguments.out.clone(),

@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn verify(file: &Path, key: Option<&str>, reveal: Option<&Path>, exercise: Option<&Path>) -> Result<(), Failure> {
     let (name, bytes) = read_input(file)?;
     let wrong = |error: &dyn std::fmt::Display| Failure::input(format!("{name}: {error}"));
-    let receipt = parse::<Receipt>(&bytes).map_err(|error| wrong(&error))?;
+    let receipt = parse::<Receipt>(&bytes).map_err(|error| wrong(&error.about("receipt")))?;
     receipt.verify(key).map_err(|error| wrong(&format!("forged: {error}")))?;
     let mut text = describe(&receipt);
     if key.is_none() {
@@ -77,7 +77,8 @@ fn verify(file: &Path, key: Option<&str>, reveal: Option<&Path>, exercise: Optio
     }
     if let Some(path) = reveal {
         let (name, bytes) = read_input(path)?;
-        let reveal = parse::<Reveal>(&bytes).map_err(|error| Failure::input(format!("{name}: {error}")))?;
+        let reveal = parse::<Reveal>(&bytes);
+        let reveal = reveal.map_err(|error| Failure::input(format!("{name}: {}", error.about("reveal"))))?;
         let exercise = self::exercise(&receipt, &reveal, exercise)?;
         let again = rerun(&receipt, &reveal, &exercise).map_err(|error| wrong(&error))?;
         // Writing to a string cannot fail.
