@@ -19,9 +19,10 @@ pub struct Window {
 }
 
 impl Window {
-    /// Of a student with or without an extension.
+    /// Of a student with or without an extension, which never takes time away: the later of the two deadlines counts.
     pub fn of(settings: &Settings, extension: Option<&Extension>) -> Self {
-        let deadline = extension.and_then(|extension| extension.deadline).or(settings.deadline);
+        let own = extension.and_then(|extension| extension.deadline);
+        let deadline = settings.deadline.map(|deadline| own.map_or(deadline, |own| own.max(deadline)));
         let days = settings.late.map_or(0, |late| i64::from(late.days));
         // Beyond the end of time there is no lateness.
         let closes_at =
@@ -124,6 +125,8 @@ pub fn mark(
         }
     }
     let Some((decided, points)) = decided.and_then(|decided| Some((decided, decided.points?))) else { return counts };
+    // Decided as so many of what full credit was worth then.
+    let points = decided.of.map_or(points, |of| hundredths(points / of * settings.points));
     let (attempt, late_percent) = counts.map_or((None, 0.0), |mark| (mark.attempt, mark.late_percent));
     Some(Mark { points, attempt, late_percent, overridden: Some(decided.comment.clone()) })
 }
@@ -198,6 +201,20 @@ mod tests {
     }
 
     #[test]
+    fn an_extension_takes_no_time_away() {
+        let (own, end) = (Some(at("2026-01-20T00:00:00Z")), settings().deadline);
+        let deadline = |settings: &Settings, own| {
+            let extension = Extension { deadline: own, ..extension("2026-01-20T00:00:00Z") };
+            Window::of(settings, Some(&extension)).deadline
+        };
+        assert_eq!(deadline(&settings(), own), own);
+        assert_eq!(deadline(&settings(), None), end);
+        // The class's was moved beyond the student's.
+        assert_eq!(deadline(&settings(), Some(at("2026-01-05T00:00:00Z"))), end);
+        assert_eq!(deadline(&Settings { deadline: None, ..settings() }, own), None);
+    }
+
+    #[test]
     fn lateness_costs_by_the_day_begun_up_to_its_cap() {
         let (settings, window) = (settings(), Window::of(&settings(), None));
         for (moment, percent) in [
@@ -237,6 +254,7 @@ mod tests {
             student: Uuid::nil(),
             teacher: Uuid::nil(),
             points,
+            of: Some(100.0),
             comment: "oral exam".to_owned(),
             at: at("2026-01-12T00:00:00Z"),
         };
@@ -246,6 +264,11 @@ mod tests {
         assert_eq!((overridden.points, overridden.overridden.as_deref()), (80.0, Some("oral exam")));
         assert_eq!(mark_of(&[], Some(80.0)).unwrap().attempt, None);
         assert_eq!(mark_of(&attempts, None).unwrap().points, 50.0);
+        // Full credit is worth another number of points now, as it is for everyone else.
+        let tenth = Settings { points: 10.0, ..settings() };
+        assert_eq!(mark(&tenth, None, &attempts, Some(&decided(Some(33.33)))).unwrap().points, 3.33);
+        let kept_since_before = Override { of: None, ..decided(Some(7.0)) };
+        assert_eq!(mark(&tenth, None, &attempts, Some(&kept_since_before)).unwrap().points, 7.0);
         assert_eq!(mark_of(&[], None), None);
     }
 

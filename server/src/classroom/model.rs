@@ -179,7 +179,7 @@ pub struct Extension {
     pub assignment: Uuid,
     /// Who.
     pub student: Uuid,
-    /// Another deadline.
+    /// A later deadline; the class's if not set.
     pub deadline: Option<Timestamp>,
     /// More attempts.
     pub attempts: u32,
@@ -264,6 +264,8 @@ pub struct Override {
     pub teacher: Uuid,
     /// The mark; without one, that of the attempts counts again.
     pub points: Option<f64>,
+    /// What full credit was worth then; marks follow when that changes. Unknown for those of the first version.
+    pub of: Option<f64>,
     /// Why.
     pub comment: String,
     /// When.

@@ -165,6 +165,7 @@ pub(crate) struct OverrideRow {
     person_id: String,
     teacher_id: String,
     points: Option<f64>,
+    points_of: Option<f64>,
     comment: String,
     at: i64,
 }
@@ -179,6 +180,7 @@ impl TryFrom<OverrideRow> for Override {
             student: stored_id(&row.person_id)?,
             teacher: stored_id(&row.teacher_id)?,
             points: row.points,
+            of: row.points_of,
             comment: row.comment,
             at: stored_time(row.at)?,
         })

@@ -1,6 +1,8 @@
 //! What people may be called, and what else they may write: lengths in characters, and what a spreadsheet would not run.
 
 use adaptarm_core::scenario::{Problem, ScenarioError};
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
 
 /// Allowed lengths.
 pub const NAME_CHARS: [usize; 2] = [1, 80];
@@ -14,6 +16,8 @@ pub const NUMBER_CHARS: [usize; 2] = [1, 64];
 pub const TITLE_CHARS: [usize; 2] = [1, 120];
 /// Of what explains a decision.
 pub const COMMENT_CHARS: [usize; 2] = [1, 1000];
+/// Of a deadline, and of when something opens.
+const YEARS: [f64; 2] = [2000.0, 2999.0];
 
 /// A text of an allowed length without control characters; the space around it does not count.
 pub fn line(pointer: &str, text: &str, allowed: [usize; 2]) -> Result<String, ScenarioError> {
@@ -61,6 +65,13 @@ pub fn number(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static st
         return Ok(value);
     }
     Err(ScenarioError::new(pointer, Problem::OutOfRange { value, min, max, unit }))
+}
+
+/// A moment that a course may have something to do with.
+pub fn moment(pointer: &str, moment: Option<Timestamp>) -> Result<(), ScenarioError> {
+    let Some(moment) = moment else { return Ok(()) };
+    let year = f64::from(moment.to_zoned(TimeZone::UTC).year());
+    number(pointer, year, YEARS, "years").map(|_| ())
 }
 
 /// Not the text that is needed.

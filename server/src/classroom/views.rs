@@ -133,8 +133,8 @@ pub fn attempt(attempt: &Attempt, share: &Share) -> Value {
 
 /// A decision about a mark.
 pub fn decided(decided: &Override) -> Value {
-    let Override { teacher, points, comment, at, .. } = decided;
-    json!({ "at": at, "teacher": teacher, "points": points, "comment": comment })
+    let Override { teacher, points, of, comment, at, .. } = decided;
+    json!({ "at": at, "teacher": teacher, "points": points, "of": of, "comment": comment })
 }
 
 /// What a teacher did.

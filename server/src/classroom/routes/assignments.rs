@@ -86,14 +86,15 @@ impl Asked {
         }
         let points = hundredths(texts::number("/points", self.points, [1.0, 1000.0], "points")?);
         if points != self.points {
-            let message = format!("{} is no whole number of hundredths", self.points);
-            return Err(ScenarioError::new("/points", Wrong::Conflict { message }));
+            return Err(texts::malformed("/points", &format!("{} is no whole number of hundredths", self.points)));
         }
         if let Some(late) = &self.late {
             texts::number("/late/percent_per_day", late.percent_per_day, [0.0, 100.0], "%")?;
             texts::number("/late/cap_percent", late.cap_percent, [0.0, 100.0], "%")?;
             texts::number("/late/days", f64::from(late.days), [1.0, 365.0], "days")?;
         }
+        texts::moment("/opens_at", self.opens_at)?;
+        texts::moment("/deadline", self.deadline)?;
         if let (Some(opens), Some(deadline)) = (self.opens_at, self.deadline)
             && deadline <= opens
         {
@@ -137,11 +138,16 @@ async fn add(desk: &Desk, class: Uuid, teacher: Uuid, asked: Asked) -> Result<As
     };
     let document = desk.library.get(&name).ok_or_else(unknown)?.document();
     let settings = asked.settings()?;
+    let now = Timestamp::now();
+    if let Some(deadline) = settings.deadline.filter(|deadline| *deadline <= now) {
+        // Nobody could hand in, and the explanation would be out at once.
+        return Err(conflict("past", format!("{deadline} is over already; it is {now}")));
+    }
     if desk.store.assignments(class).await.map_err(database)?.len() as i64 >= ASSIGNMENTS {
         return Err(problems::full("assignments", ASSIGNMENTS));
     }
     let document = serde_json::to_string(document).map_err(crate::routes::internal)?;
-    let (id, created_at) = (Uuid::now_v7(), Timestamp::now());
+    let (id, created_at) = (Uuid::now_v7(), now);
     let assignment = Assignment { id, class, exercise: name, document, settings, created_at };
     let data = json!({ "assignment": id, "settings": assignment.settings });
     change_as(desk, teacher, class, Change::AddAssignment(assignment.clone()), "assignment.create", data).await?;
@@ -222,6 +228,12 @@ pub(super) async fn extend(
 ) -> Result<Json<Value>, Problem> {
     let (class, assignment, student) = own_pair(&state, &teacher.0, &id, &student).await?;
     let AskedExtension { deadline, attempts, comment } = read(&bytes)?;
+    let before = state.desk.store.extensions(assignment.id).await.map_err(database)?;
+    let before = before.iter().find(|own| own.student == student.id).and_then(|own| own.deadline);
+    // What stands already may stay, though the class's deadline has come up with it.
+    if deadline != before {
+        later(deadline, assignment.settings.deadline)?;
+    }
     texts::number("/attempts", f64::from(attempts), [0.0, 1000.0], "attempts")?;
     let [_, most] = texts::COMMENT_CHARS;
     let comment = texts::line("/comment", &comment, [0, most])?;
@@ -232,6 +244,22 @@ pub(super) async fn extend(
     });
     change(&state, &teacher, class.id, Change::SetExtension(extension.clone()), "extension.set", data).await?;
     Ok(Json(views::extension(&extension)))
+}
+
+/// Whether a student's deadline gives more time than the class's does.
+fn later(deadline: Option<Timestamp>, of_class: Option<Timestamp>) -> Result<(), Problem> {
+    texts::moment("/deadline", deadline)?;
+    let Some(deadline) = deadline else { return Ok(()) };
+    match of_class {
+        Some(of_class) if deadline > of_class => Ok(()),
+        Some(of_class) => Err(conflict("class-deadline", format!("{deadline} is not after the class's, {of_class}"))),
+        None => Err(conflict("no-deadline", "the class has no deadline that could be extended".to_owned())),
+    }
+}
+
+/// A deadline that cannot be, with the reason by name for whoever says it in another language.
+fn conflict(reason: &str, message: String) -> Problem {
+    Problem::from(ScenarioError::new("/deadline", Wrong::Conflict { message })).with("reason", reason)
 }
 
 /// Takes an extension back.
@@ -273,6 +301,7 @@ pub(super) async fn decide(
         student: student.id,
         teacher: teacher.0.id,
         points: points.map(hundredths),
+        of: Some(most),
         comment,
         at: Timestamp::now(),
     };

@@ -31,6 +31,11 @@ fn whole(server: &Server, arguments: &[&str]) -> Result<()> {
         "leaderboard": true,
     });
     let assignment = teacher.give(&class, &given)?;
+    for (deadline, reason) in [("2020-01-01T00:00:00Z", json!("past")), ("0000-01-01T00:00:00Z", Value::Null)] {
+        let over = json!({ "exercise": "hold", "deadline": deadline });
+        let refused = teacher.post(&format!("/classes/{class}/assignments"), &over)?.expect(422)?;
+        ensure!(refused["pointer"] == "/deadline" && refused["reason"] == reason, "{refused}");
+    }
     let [well, badly, nonsense] =
         ["Bea", "Carlos", "Dora, the third"].map(|name| Visitor::student(&server.url, &code, name));
     let (well, badly, nonsense) = (well?, badly?, nonsense?);
@@ -154,7 +159,17 @@ fn extend(teacher: &Visitor, assignment: &str, student: &Visitor) -> Result<()> 
     let problem = refused.expect(409)?;
     ensure!(problem["type"] == "/problems/attempts" && problem["allowed"] == 2, "{problem}");
     let extension = json!({ "deadline": "2201-01-01T00:00:00Z", "attempts": 1, "comment": "was ill" });
-    teacher.put(&format!("/assignments/{assignment}/extensions/{}", student.id()?), &extension)?.expect(200)?;
+    let own = format!("/assignments/{assignment}/extensions/{}", student.id()?);
+    // An extension that would take time away.
+    for sooner in ["2020-01-01T00:00:00Z", "2200-01-01T00:00:00Z"] {
+        let refused = teacher.put(&own, &json!({ "deadline": sooner, "attempts": 1 }))?.expect(422)?;
+        ensure!(refused["pointer"] == "/deadline" && refused["reason"] == "class-deadline", "{refused}");
+    }
+    // More attempts alone leave the deadline as it is.
+    teacher.put(&own, &json!({ "attempts": 1 }))?.expect(200)?;
+    let view = student.get(&format!("/assignments/{assignment}"))?.expect(200)?;
+    ensure!(view["deadline"] == "2200-01-01T00:00:00Z" && view["attempts_left"] == 1, "{view}");
+    teacher.put(&own, &extension)?.expect(200)?;
     let view = student.get(&format!("/assignments/{assignment}"))?.expect(200)?;
     ensure!(
         view["extended"] == true && view["attempts_left"] == 1 && view["deadline"] == "2201-01-01T00:00:00Z",
@@ -166,17 +181,26 @@ fn extend(teacher: &Visitor, assignment: &str, student: &Visitor) -> Result<()> 
 /// A mark by the teacher's own decision, with its reason, where everyone sees it.
 fn decide(teacher: &Visitor, class: &str, assignment: &str, student: &Visitor) -> Result<()> {
     let path = format!("/assignments/{assignment}/students/{}/override", student.id()?);
-    for wrong in
-        [json!({ "points": 30 }), json!({ "points": 30, "comment": " " }), json!({ "points": -1, "comment": "x" })]
-    {
+    for wrong in [
+        json!({ "points": 30 }),
+        json!({ "points": 30, "comment": " " }),
+        json!({ "points": -1, "comment": "x" }),
+        json!({ "points": 30, "comment": "-2+3" }),
+    ] {
         teacher.put(&path, &wrong)?.expect(422)?;
     }
     let mark = teacher.put(&path, &json!({ "points": 30, "comment": "oral exam" }))?.expect(200)?;
     ensure!(mark["points"] == 30.0 && mark["overridden"] == true && mark["comment"] == "oral exam", "{mark}");
     let view = student.get(&format!("/assignments/{assignment}"))?.expect(200)?;
     ensure!(view["mark"] == mark, "{view}");
+    // It is as large a share of the points when full credit becomes worth another number of them.
+    for (points, expected) in [(10, 6.0), (50, 30.0)] {
+        teacher.patch(&format!("/assignments/{assignment}"), &json!({ "points": points }))?.expect(200)?;
+        let mark = student.get(&format!("/assignments/{assignment}"))?.expect(200)?["mark"].clone();
+        ensure!(mark["points"] == expected && mark["of"] == f64::from(points), "{mark}");
+    }
     let audit = teacher.get(&format!("/classes/{class}/audit"))?.expect(200)?;
-    let newest = &audit["entries"][0];
+    let newest = &audit["entries"][2];
     ensure!(newest["what"] == "mark.override" && newest["data"]["points"] == 30.0, "{audit}");
     ensure!(
         newest["data"]["student"] == student.id()?.as_str() && newest["teacher"] == teacher.id()?.as_str(),
@@ -215,6 +239,7 @@ fn books(teacher: &Visitor, class: &str, well: &Visitor, badly: &Visitor, poor: 
     ];
     ensure!(moodle == expected, "{moodle:?}");
     let plain = book("plain")?;
+    ensure!(plain[0].starts_with("\u{feff}Name,Login"), "Excel needs to be told that it is UTF-8: {plain:?}");
     ensure!(plain[1] == format!("Bea,{},S-001,50,1,0,", well.text("login")?), "{plain:?}");
     ensure!(plain[2] == format!("Carlos,{},,{points},2,0,", badly.text("login")?), "{plain:?}");
     teacher.get(&format!("/classes/{class}/gradebook.csv?shape=xlsx"))?.expect(422)?;
@@ -340,6 +365,22 @@ pub fn teachers() -> Result<()> {
     ensure!(redeem(link, "bob")?.expect(409)?["type"] == "/problems/taken", "the link is still good");
     redeem(link, "eva")?.expect_status(201)?;
     redeem(link, "iva")?.expect_status(401)?;
+    // The way back to one's own classes, by the command line.
+    let (class, _) = teacher.class("A")?;
+    let back = teacher_link(&server, &["--login", "bob"])?;
+    let mut again = Visitor::new(&server.url);
+    again.enter("/session", &json!({ "key": secret(&back, "key")? }))?;
+    ensure!(again.get("/classes")?.expect(200)?["classes"][0]["id"] == class.as_str());
+    ensure!(teacher.get("/classes")?.status == 401, "the old sessions are over");
+    ensure!(teacher_link(&server, &["--login", "nobody"]).is_err());
+    // A folder that no server uses is not made: a link into it would let nobody in.
+    let nowhere = server.data.path().join("nowhere");
+    let output = std::process::Command::new(adaptarm_tests::binary()?)
+        .args(["teacher", "link", "--data"])
+        .arg(&nowhere)
+        .output()?;
+    ensure!(!output.status.success() && !nowhere.exists(), "{output:?}");
+    let teacher = again;
     let exercises = teacher.get("/exercises")?.expect(200)?.to_string();
     ensure!(exercises.contains("NOTE-FOR-TEACHERS") && exercises.contains("solution-stiff"));
     Ok(())

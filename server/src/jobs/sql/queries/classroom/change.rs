@@ -168,14 +168,15 @@ async fn set_extension(connection: &mut Connection, extension: &Extension) -> Re
 
 async fn decide(connection: &mut Connection, decided: &Override) -> Result<bool, StoreError> {
     sqlx::query(
-        "INSERT INTO mark_override (id, assignment_id, person_id, teacher_id, points, comment, at) \
-         VALUES ($1, $2, $3, $4, $5, $6, $7)",
+        "INSERT INTO mark_override (id, assignment_id, person_id, teacher_id, points, points_of, comment, at) \
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
     )
     .bind(decided.id.to_string())
     .bind(decided.assignment.to_string())
     .bind(decided.student.to_string())
     .bind(decided.teacher.to_string())
     .bind(decided.points)
+    .bind(decided.of)
     .bind(&decided.comment)
     .bind(decided.at.as_microsecond())
     .execute(connection)
