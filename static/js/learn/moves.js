@@ -44,9 +44,11 @@ export class Moves {
     }
   }
 
-  /** What was last accepted, by name. */
+  /** What they show, by name; null where one of them shows what was refused, and that one then has the focus. */
   read() {
-    return { ...this.#gains };
+    const wrong = [...this.#fields.values()].find(({ error }) => error !== null);
+    wrong?.focus();
+    return wrong ? null : { ...this.#gains };
   }
 }
 
