@@ -55,17 +55,17 @@ export class AccountView extends View {
 /** A button that signs out. */
 export const signOutButton = (failure) => actionButton(own.signOut, failure, () => client.end(), { id: "sign-out" });
 
-function newLinkButton(attempt, place, { login }) {
+function newLinkButton(attempt, place, session) {
   return confirmButton({ ...own.newLink, name: own.newLink.label }, () =>
     attempt(async () => {
       const { link } = await client.ask("POST", "me/key");
-      place.replaceChildren(secretLink({ link, login }, () => place.replaceChildren()));
+      place.replaceChildren(secretLink({ ...session, link }, () => place.replaceChildren()));
     }),
   );
 }
 
 function passwordCard(session, changed) {
-  const secret = { type: "password", minlength: 10, maxlength: 200 };
+  const secret = { type: "password", required: true, minlength: 10, maxlength: 200 };
   const current = session.has_password
     ? [field({ ...secret, name: "current", label: own.currentPassword, autocomplete: "current-password" })]
     : [];

@@ -4,7 +4,21 @@ import { texts } from "../strings/classroom.js";
 import { failureOf } from "../wasm.js";
 import { moment } from "./times.js";
 
-const errors = texts.errors;
+const { errors, fields } = texts;
+
+/** What the server found wrong in a field, in the reader's language; `reason` is its name for what a deadline cannot be. */
+export function explainField({ kind, problem }) {
+  const { pointer, reason, min, max, unit } = problem;
+  const [field] = pointer.split("/").slice(1);
+  switch (kind) {
+    case "out-of-range":
+      return unit === "characters" ? fields.characters(min, max) : unit === "years" ? fields.moment : fields.between(min, max);
+    case "conflict":
+      return fields.deadlines[reason] ?? (field === "deadline" ? fields.deadlines.opens : fields.other);
+    default:
+      return fields.malformed[field] ?? fields.other;
+  }
+}
 
 /** An error of a request, or of the page itself, in a sentence or two. */
 export function explain(error) {

@@ -10,10 +10,19 @@ import { texts } from "../strings/classroom.js";
 import { strings } from "../strings/index.js";
 import { signOutButton } from "./account.js";
 import { client } from "./client.js";
-import { takeSecret } from "./entry.js";
+import { forgetInvitation, keptInvitation, takeSecret } from "./entry.js";
 import { showError } from "./parts.js";
 
 const root = document.documentElement;
+
+/** The place that an address names; none where it is not one that was ever made. */
+function placeIn(hash) {
+  try {
+    return decodeURIComponent(hash.slice(1));
+  } catch {
+    return "";
+  }
+}
 
 export class ClassPage {
   #role;
@@ -42,7 +51,7 @@ export class ClassPage {
 
   async start() {
     this.#online();
-    this.#secret = takeSecret();
+    this.#secret = takeSecret() ?? (this.#role === "teacher" ? keptInvitation() : null);
     root.dataset.state = "loading";
     try {
       await client.load();
@@ -71,7 +80,7 @@ export class ClassPage {
       return;
     }
     const isEntry = session.role !== this.#role || this.#secret !== null;
-    const place = decodeURIComponent(location.hash.slice(1));
+    const place = placeIn(location.hash);
     this.#shown = isEntry ? this.#enter(this, this.#secret) : this.#view(place, this);
     root.dataset.view = isEntry ? "enter" : place.split("/")[0] || "home";
     this.#place.replaceChildren(this.#shown.node);
@@ -91,6 +100,7 @@ export class ClassPage {
 
   /** The secret of the address has been used, or is not wanted. */
   done() {
+    forgetInvitation();
     this.#secret = null;
     this.route();
   }

@@ -29,6 +29,9 @@ export function table({ caption, heads, rows, className = "" }) {
   );
 }
 
+/** People in the order of their names, as the reader's language has it. */
+export const byName = (people) => people.toSorted((one, other) => one.name.localeCompare(other.name, locale(), { numeric: true }));
+
 /** Facts by name; those without a value are left out. */
 export function facts(pairs) {
   const shown = pairs.filter(([, value]) => value !== null && value !== undefined && value !== "");
@@ -91,13 +94,14 @@ export function copyable(text, label, className = "") {
 }
 
 /** A personal link, which is shown this once: what it is for, the link, and a button that says it is kept. */
-export function secretLink({ link, login }, kept) {
+export function secretLink({ link, login, role, has_password }, kept) {
+  const own = texts.secret[role];
   const box = card(
     texts.secret.title,
     element("p", {}, texts.secret.what),
     copyable(link, texts.secret.title, "secret"),
-    element("p", { class: "warning" }, element("strong", {}, texts.secret.warning)),
-    login ? element("p", { class: "help" }, texts.secret.login(login)) : null,
+    element("p", { class: "warning" }, element("strong", {}, own.warning)),
+    login ? element("p", { class: "help" }, has_password ? texts.secret.loginAndPassword(login) : texts.secret.login(login)) : null,
     element("button", { type: "button", class: "primary", id: "link-kept", onclick: () => kept() }, texts.secret.kept),
   );
   box.classList.add("secret-card");

@@ -34,6 +34,11 @@ export class SignInView {
 
   stop() {}
 
+  /** What the address brought is not wanted: the page is shown as without it. */
+  leave() {
+    this.#page.done();
+  }
+
   /** A personal link was opened: nothing to type. */
   async byKey(key) {
     try {
@@ -68,8 +73,8 @@ export class SignInView {
     const byPassword = form({
       id: "by-password",
       groups: [
-        field({ name: "login", label: texts.login, autocomplete: "username", autocapitalize: "none", spellcheck: "false" }),
-        field({ name: "password", label: texts.password, type: "password", autocomplete: "current-password" }),
+        field({ name: "login", label: texts.login, required: true, autocomplete: "username", autocapitalize: "none", spellcheck: "false" }),
+        field({ name: "password", label: texts.password, required: true, type: "password", autocomplete: "current-password" }),
       ],
       submit: own.signIn,
       primary: false,

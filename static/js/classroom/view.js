@@ -1,6 +1,7 @@
 // What views of the classroom are built on: loaded when shown, again when asked, silent after they were left.
 
 import { element } from "../dom.js";
+import { texts } from "../strings/classroom.js";
 import { showError } from "./parts.js";
 
 const root = document.documentElement;
@@ -38,7 +39,12 @@ export class View {
       if (!this.failure.isConnected) {
         this.node.append(this.failure);
       }
-      showError(this.failure, error, () => this.start());
+      const isGone = error.status === 404;
+      showError(this.failure, error, isGone ? null : () => this.start());
+      if (isGone) {
+        // Asking again would not help; the start of the page does.
+        this.failure.append(element("p", {}, element("a", { class: "back", href: "#" }, `← ${texts.toStart}`)));
+      }
     }
   }
 

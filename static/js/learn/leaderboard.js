@@ -31,9 +31,11 @@ export function leaderboardCard({ id, leaderboard }) {
 /** The best, and oneself wherever one is. */
 export function leaderboardTable(entries) {
   const shown = entries.filter(({ you }, n) => n < SHOWN || you);
+  // To a teacher none of them is "you".
+  const isThere = shown.some(({ you }) => you);
   const rows = shown.map(({ rank, points: own_points, you }) => ({
     "aria-current": you ? "true" : null,
-    cells: [String(rank), points(own_points), you ? own.you : ""],
+    cells: [String(rank), points(own_points), ...(isThere ? [you ? own.you : ""] : [])],
   }));
-  return table({ caption: own.caption(entries.length), heads: [own.rank, own.points, own.who], rows, className: "board-table" });
+  return table({ caption: own.caption(entries.length), heads: [own.rank, own.points, ...(isThere ? [own.who] : [])], rows, className: "board-table" });
 }

@@ -4,7 +4,7 @@
 
 import { announce } from "../announce.js";
 import { client } from "../classroom/client.js";
-import { badge, card, facts, meter, points, pointsOf, table } from "../classroom/parts.js";
+import { badge, byName, card, facts, meter, points, pointsOf, table } from "../classroom/parts.js";
 import { momentElement } from "../classroom/times.js";
 import { View } from "../classroom/view.js";
 import { element } from "../dom.js";
@@ -158,7 +158,7 @@ function criteriaTable({ criteria, commonest_failure }) {
 
 function studentsTable({ assignment, students }) {
   const extended = new Set(assignment.extensions.map(({ student }) => student));
-  const rows = students.map(({ id, name, attempts, grading, returned, mark, last_at }) => {
+  const rows = byName(students).map(({ id, name, attempts, grading, returned, mark, last_at }) => {
     const marks = [
       mark ? pointsOf(mark.points, mark.of) : points(null),
       mark?.overridden ? badge("overridden", own.overridden) : "",

@@ -2,14 +2,15 @@
 
 import { client } from "../classroom/client.js";
 import { actionButton, field, form } from "../classroom/form.js";
-import { badge, card, copyable, points, table } from "../classroom/parts.js";
-import { moment, momentElement } from "../classroom/times.js";
+import { badge, byName, card, copyable, points } from "../classroom/parts.js";
+import { momentElement } from "../classroom/times.js";
 import { View } from "../classroom/view.js";
 import { element } from "../dom.js";
 import { download, fileName } from "../download.js";
 import { confirmButton } from "../jobs/confirm.js";
 import { localized, texts } from "../strings/classroom.js";
 import { assignmentCard } from "./assign.js";
+import { auditCard } from "./audit.js";
 import { courseCard } from "./platform.js";
 import { projector } from "./projector.js";
 import { studentTable } from "./students.js";
@@ -44,10 +45,10 @@ export class ClassView extends View {
       this.#joining(group),
       this.#assignments(group),
       assignmentCard(exercises, (body) => this.#assign(body)),
-      studentTable(group.students, (change) => this.act(change)),
+      studentTable(byName(group.students), (change) => this.act(change)),
       this.#gradebook(group),
       this.#settings(group),
-      this.#audit(),
+      auditCard(this.#id, group),
     );
   }
 
@@ -101,7 +102,7 @@ export class ClassView extends View {
   #settings({ name }) {
     const rename = form({
       id: "rename-class",
-      groups: [field({ name: "name", label: texts.classes.name, value: name, maxlength: 80 })],
+      groups: [field({ name: "name", label: texts.classes.name, required: true, value: name, maxlength: 80 })],
       submit: own.rename,
       primary: false,
       act: async (values) => {
@@ -114,20 +115,5 @@ export class ClassView extends View {
       location.hash = "";
     });
     return card(own.settings, rename, element("div", { class: "actions" }, remove));
-  }
-
-  #audit() {
-    const place = element("div", {});
-    const load = async () => {
-      const { entries } = await client.get(`classes/${this.#id}/audit`);
-      const rows = entries.map(({ at, what, data }) => ({ cells: [moment(at), own.audited[what] ?? what, element("code", {}, JSON.stringify(data))] }));
-      place.replaceChildren(
-        rows.length > 0
-          ? table({ caption: own.auditCaption, heads: [own.when, own.what, own.data], rows, className: "audit" })
-          : element("p", { class: "help" }, own.auditEmpty),
-      );
-    };
-    const show = actionButton(own.auditShow, place, load, { id: "show-audit" });
-    return card(own.audit, element("p", {}, own.auditHelp), element("div", { class: "actions" }, show), place);
   }
 }

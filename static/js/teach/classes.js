@@ -27,7 +27,7 @@ export class ClassesView extends View {
     );
     const add = form({
       id: "new-class",
-      groups: [field({ name: "name", label: own.name, maxlength: 80 })],
+      groups: [field({ name: "name", label: own.name, required: true, maxlength: 80 })],
       submit: own.create,
       act: async (values) => {
         const { id } = await client.ask("POST", "classes", values);

@@ -1,7 +1,7 @@
 // The way in for teachers: the invitation that the server printed or a colleague gave, the personal link, or login and password.
 
 import { client } from "../classroom/client.js";
-import { secretIn } from "../classroom/entry.js";
+import { forgetInvitation, secretIn } from "../classroom/entry.js";
 import { field, form } from "../classroom/form.js";
 import { card } from "../classroom/parts.js";
 import { SignInView } from "../classroom/sign-in.js";
@@ -10,6 +10,8 @@ import { texts } from "../strings/classroom.js";
 
 const own = texts.teachEnter;
 const root = document.documentElement;
+
+const command = (text) => element("pre", {}, element("code", {}, text));
 
 export class EnterView extends SignInView {
   async start() {
@@ -25,24 +27,39 @@ export class EnterView extends SignInView {
     const redeem = form({
       id: "redeem",
       groups: [
-        field({ name: "name", label: texts.name, maxlength: 80, autocomplete: "name" }),
-        field({ name: "login", label: texts.login, help: own.loginHelp, maxlength: 40, autocomplete: "username", autocapitalize: "none", spellcheck: "false" }),
-        field({ name: "password", label: texts.password, help: own.passwordHelp, type: "password", maxlength: 200, autocomplete: "new-password" }),
+        field({ name: "name", label: texts.name, required: true, maxlength: 80, autocomplete: "name" }),
+        field({ name: "login", label: texts.login, help: own.loginHelp, required: true, minlength: 3, maxlength: 40, autocomplete: "username", autocapitalize: "none", spellcheck: "false" }),
+        field({ name: "password", label: texts.password, help: own.passwordHelp, type: "password", minlength: 10, maxlength: 200, autocomplete: "new-password" }),
       ],
       submit: own.create,
       act: async ({ password, ...values }) => {
         const body = { invitation, ...values, ...(password ? { password } : {}) };
-        this.keepLink(await client.ask("POST", "teachers", body));
+        this.keepLink(await this.#begin(body));
       },
     });
-    this.node.replaceChildren(element("h1", { tabindex: "-1" }, own.invited), element("p", { class: "lead" }, own.invitedLead), card(own.account, redeem));
+    const leave = element("button", { type: "button", class: "quiet", onclick: () => this.leave() }, own.haveAccount);
+    this.node.replaceChildren(element("h1", { tabindex: "-1" }, own.invited), element("p", { class: "lead" }, own.invitedLead), card(own.account, redeem), element("div", { class: "actions" }, leave));
     root.dataset.state = "ready";
+  }
+
+  /** An invitation that is used up, or was never good, is not asked for again. */
+  async #begin(body) {
+    try {
+      const session = await client.ask("POST", "teachers", body);
+      forgetInvitation();
+      return session;
+    } catch (error) {
+      if (error.kind === "sign-in") {
+        forgetInvitation();
+      }
+      throw error;
+    }
   }
 
   offer() {
     const byLink = form({
       id: "by-link",
-      groups: [field({ name: "link", label: own.link, help: own.linkHelp, spellcheck: "false" })],
+      groups: [field({ name: "link", label: own.link, help: own.linkHelp, required: true, spellcheck: "false" })],
       submit: texts.enter.signIn,
       act: async ({ link }) => {
         if (link.includes("#invitation=")) {
@@ -56,7 +73,7 @@ export class EnterView extends SignInView {
       element("h1", { tabindex: "-1" }, own.title),
       element("p", { class: "lead" }, own.lead),
       card(own.signInTitle, byLink, this.passwordForm()),
-      card(own.firstTitle, element("p", {}, own.firstHelp), element("pre", {}, element("code", {}, "adaptarm teacher link"))),
+      card(own.firstTitle, element("p", {}, own.firstHelp), command("adaptarm teacher link --data DIR"), element("p", {}, own.lostHelp), command("adaptarm teacher link --data DIR --login LOGIN")),
       element("p", {}, element("a", { href: "learn.html" }, own.student)),
     );
     root.dataset.state = "ready";

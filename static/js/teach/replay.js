@@ -6,8 +6,8 @@ import { figurePlace, RunBench } from "../classroom/run-bench.js";
 import { actionButton } from "../classroom/form.js";
 import { showError, table } from "../classroom/parts.js";
 import { element } from "../dom.js";
-import { formatNumber } from "../format.js";
 import { handOver } from "../handover.js";
+import { quantity } from "../learn/preview.js";
 import { localized, texts } from "../strings/classroom.js";
 import { strings } from "../strings/index.js";
 
@@ -16,7 +16,7 @@ const own = texts.replay;
 const AT_A_TIME = 4;
 
 /** The folded part of an attempt: computed when it is opened, gone when it is closed; one is open at a time. */
-export function replayPart({ number, runs, grade, criteria }) {
+export function replayPart({ number, runs, grade, criteria }, metrics) {
   if (!runs || runs.length === 0) {
     return null;
   }
@@ -30,7 +30,7 @@ export function replayPart({ number, runs, grade, criteria }) {
     try {
       const core = await loadCore();
       if (fold.open) {
-        const shown = variants(runs, grade, criteria, core);
+        const shown = variants(runs, grade, criteria, metrics, core);
         stop = shown.stop;
         place.replaceChildren(shown.node);
       }
@@ -46,21 +46,28 @@ export function replayPart({ number, runs, grade, criteria }) {
   return fold;
 }
 
-function variants(runs, grade, criteria, core) {
+/** A variant's values with their units, a line for each criterion. */
+const measured = (graded, criteria, metrics) =>
+  element(
+    "ul",
+    {},
+    graded.map(({ value, share }, n) => element("li", {}, `${localized(criteria[n].label)}: ${own.value(quantity(metrics[n] ?? "", value), Math.round(100 * share))}`)),
+  );
+
+function variants(runs, grade, criteria, metrics, core) {
   const figures = element("div", {});
   let bench = null;
   const names = runs.map(({ hidden }, n) => (hidden ? own.hidden(place(runs, n)) : own.visible(place(runs, n))));
   const failure = element("div", { class: "failure" });
   const rows = runs.map(({ scenario, hidden }, n) => {
     const graded = hidden ? grade?.variants[place(runs, n) - 1] : null;
-    const numbers = graded ? graded.criteria.map(({ value, share }) => own.value(formatNumber(value, 3), Math.round(100 * share))).join("; ") : "";
+    const numbers = graded ? measured(graded.criteria, criteria, metrics) : "";
     const watch = element("button", { type: "button", "data-run": n, onclick: () => draw([named[n]]) }, own.show);
     const open = canOpen(scenario, core)
       ? actionButton(own.playground, failure, () => toPlayground(scenario), { "data-playground": n })
       : element("span", { class: "help" }, own.notInPlayground);
     return { cells: [names[n], numbers, element("div", { class: "actions" }, watch, open)] };
   });
-  const labels = criteria.map(({ label }) => localized(label)).join("; ");
 
   const named = runs.map(({ scenario }, n) => ({ id: `run-${n}`, name: names[n], document: scenario }));
   function draw(group) {
@@ -74,7 +81,7 @@ function variants(runs, grade, criteria, core) {
     });
   }
   draw(named.slice(0, AT_A_TIME));
-  const values = table({ caption: own.caption(labels), heads: [own.variant, own.values, own.watch], rows });
+  const values = table({ caption: own.caption, heads: [own.variant, own.values, own.watch], rows });
   return { node: element("div", { class: "replay" }, values, failure, figures), stop: () => bench.stop() };
 }
 

@@ -26,7 +26,7 @@ function studentItem(student, act) {
   const edit = form({
     id: `student-${id}`,
     groups: [
-      field({ name: "name", label: texts.name, value: name, maxlength: 80 }),
+      field({ name: "name", label: texts.name, value: name, required: true, maxlength: 80 }),
       field({ name: "number", label: own.number, help: own.numberHelp, value: number ?? "", maxlength: 40, read: (input) => input.value.trim() || null }),
     ],
     submit: own.save,
@@ -67,7 +67,7 @@ function studentItem(student, act) {
         [own.joined, moment(joined_at)],
         [texts.password, has_password ? own.hasPassword : own.noPassword],
       ]),
-      edit,
+      element("div", { class: "fold-part" }, edit),
       element("div", { class: "actions" }, newKey, exported, erase),
       place,
     ),

@@ -1,9 +1,9 @@
 // One student's work on an assignment: attempts with every variant, replay, extension, override.
 
 import { client } from "../classroom/client.js";
-import { field, form, numberOf } from "../classroom/form.js";
+import { field, form, momentField, numberField } from "../classroom/form.js";
 import { badge, card, facts, points, pointsOf, table } from "../classroom/parts.js";
-import { fromLocal, moment, momentElement, toLocal } from "../classroom/times.js";
+import { moment, momentElement } from "../classroom/times.js";
 import { View } from "../classroom/view.js";
 import { element } from "../dom.js";
 import { confirmButton } from "../jobs/confirm.js";
@@ -32,7 +32,7 @@ export class WorkView extends View {
   }
 
   draw({ work, assignment }) {
-    const { student, mark, extension, attempts, overrides } = work;
+    const { student, mark, extension, overrides } = work;
     document.title = `${student.name} · adaptarm`;
     const shown = mark
       ? [element("span", { id: "work-mark", "data-points": mark.points }, pointsOf(mark.points, mark.of)), mark.overridden ? badge("overridden", texts.board.overridden) : ""]
@@ -50,9 +50,9 @@ export class WorkView extends View {
           [own.extension, extension ? this.#said(extension) : own.noExtension],
         ]),
       ),
-      this.#attempts(attempts, assignment),
+      this.#attempts(work, assignment),
       this.#override(mark, overrides, assignment),
-      this.#extend(extension, assignment),
+      this.#extend(extension, assignment.deadline),
     );
   }
 
@@ -61,18 +61,18 @@ export class WorkView extends View {
     return [until, attempts > 0 ? `, ${own.moreAttempts(attempts)}` : "", comment ? `: ${comment}` : ""];
   }
 
-  #attempts(attempts, assignment) {
-    const items = attempts.toReversed().map((attempt) => attemptItem(attempt, assignment));
+  #attempts({ attempts, metrics }, assignment) {
+    const items = attempts.toReversed().map((attempt) => attemptItem(attempt, assignment, metrics));
     const list = items.length > 0 ? element("ol", { class: "attempt-list", reversed: true }, items) : element("p", { class: "help" }, own.noAttempts);
     return card(texts.exercise.attempts, list);
   }
 
   #override(mark, overrides, { points: of }) {
     const path = `assignments/${this.#assignment}/students/${this.#student}/override`;
-    const comment = () => field({ name: "comment", label: own.comment, help: own.commentHelp, maxlength: 1000 });
+    const comment = () => field({ name: "comment", label: own.comment, help: own.commentHelp, required: true, maxlength: 1000 });
     const set = form({
       id: "override",
-      groups: [field({ name: "points", label: own.points(points(of)), value: mark?.points ?? "", inputmode: "decimal", read: numberOf }), comment()],
+      groups: [numberField({ name: "points", label: own.points(points(of)), value: mark?.points ?? "", min: 0, max: 2 * of, needed: true }), comment()],
       submit: own.override,
       primary: false,
       act: async (values) => {
@@ -97,13 +97,15 @@ export class WorkView extends View {
     return card(own.overrideTitle, element("p", { class: "help" }, own.overrideHelp), set, undo, history);
   }
 
-  #extend(extension, { deadline }) {
+  #extend(extension, deadline) {
     const path = `assignments/${this.#assignment}/extensions/${this.#student}`;
     const set = form({
       id: "extension",
       groups: [
-        field({ name: "deadline", label: own.newDeadline, help: own.newDeadlineHelp, type: "datetime-local", value: toLocal(extension?.deadline ?? deadline), read: (input) => fromLocal(input.value) }),
-        field({ name: "attempts", label: own.extraAttempts, inputmode: "numeric", value: extension?.attempts ?? 0, read: (input) => numberOf(input) ?? 0 }),
+        ...(deadline || extension?.deadline
+          ? [momentField({ name: "deadline", label: own.newDeadline, help: own.newDeadlineHelp(deadline ? moment(deadline) : null), value: extension?.deadline })]
+          : []),
+        numberField({ name: "attempts", label: own.extraAttempts, value: extension?.attempts ?? 0, min: 0, max: 1000, whole: true, needed: true }),
         field({ name: "comment", label: own.extensionComment, value: extension?.comment ?? "", maxlength: 1000 }),
       ],
       submit: extension ? own.extendAgain : own.extend,
@@ -118,7 +120,7 @@ export class WorkView extends View {
   }
 }
 
-function attemptItem(attempt, assignment) {
+function attemptItem(attempt, assignment, metrics) {
   const { id, number, state, submitted_at, gains, criteria, counts, late_percent, reason } = attempt;
   const result = state === "graded" ? pointsOf(attempt.points, assignment.points) : texts.attempts.states[state];
   const rows = criteria.map(({ id: criterion, label, points: got, of }) => ({ "data-criterion": criterion, cells: [localized(label), pointsOf(got, of)] }));
@@ -130,6 +132,6 @@ function attemptItem(attempt, assignment) {
     element("p", { class: "help gains-line" }, gainsLine(gains)),
     state === "returned" ? element("p", {}, texts.attempts.returned(reason ?? "")) : null,
     rows.length > 0 ? table({ caption: own.criteria, heads: [texts.feedback.criterion, texts.board.mark], rows }) : null,
-    replayPart(attempt),
+    replayPart(attempt, metrics),
   );
 }

@@ -4,6 +4,7 @@ export const shared = {
   skip: "Skip to the content",
   tagline: "Classroom",
   back: "Back",
+  toStart: "Back to your overview",
   retry: "Try again",
   copy: "Copy",
   copyNamed: (what) => `Copy: ${what}`,
@@ -20,8 +21,10 @@ export const shared = {
   secret: {
     title: "Your personal link",
     what: "This link is your way back in, from any device. It is shown only this once: keep it where you find it again.",
-    warning: "Whoever has this link is you. Without it, and without a password, only a teacher can let you back in.",
+    student: { warning: "Whoever has this link is you. Without it, and without a password, only a teacher can let you back in." },
+    teacher: { warning: "Whoever has this link is you. Without it, and without a password, only whoever runs this server can let you back in." },
     login: (login) => `Your login is ${login}. Together with a password, which you may set under your name, it serves in place of the link.`,
+    loginAndPassword: (login) => `Your login is ${login}. Together with your password it serves in place of the link.`,
     kept: "I have kept the link",
   },
 
@@ -44,6 +47,36 @@ export const shared = {
     notFound: "There is no such thing here, or it is not yours.",
     refused: (why) => `The server did not accept this: ${why}.`,
     other: (status, why) => `The server answered with an error (${status}): ${why}`,
+  },
+
+  // What is wrong with what was typed into a field.
+  fields: {
+    needed: "This is needed.",
+    incomplete: "This is not complete: give both the day and the time, or clear the field.",
+    moment: "The year must be between 2000 and 2999.",
+    notANumber: "This is not a number.",
+    whole: "A whole number is needed.",
+    between: (min, max) => `A number from ${min} to ${max} is needed.`,
+    characters: (min, max) => (min > 1 ? `${min} to ${max} characters are needed.` : min === 1 ? `1 character at least, and ${max} at most.` : `At most ${max} characters.`),
+    other: "The server does not take this.",
+    malformed: {
+      name: "One line of plain text is needed that does not begin with =, +, - or @.",
+      number: "One line of plain text is needed that does not begin with =, +, - or @.",
+      title: "One line of plain text is needed that does not begin with =, +, - or @.",
+      comment: "One line of plain text is needed that does not begin with =, +, - or @.",
+      login: "Small letters a to z, digits, dots, hyphens and underscores, with at least one letter.",
+      password: "More than blanks are needed.",
+      deadline: "This is not a moment.",
+      opens_at: "This is not a moment.",
+      points: "A number with at most two decimals is needed.",
+      attempts: "A whole number is needed.",
+    },
+    deadlines: {
+      past: "This is over already: nobody could hand in.",
+      opens: "The deadline must be after the opening.",
+      "class-deadline": "This is not later than the class's deadline.",
+      "no-deadline": "The class has no deadline.",
+    },
   },
 
   account: {

@@ -4,6 +4,7 @@ export const shared = {
   skip: "Saltar al contenido",
   tagline: "Aula",
   back: "Volver",
+  toStart: "Volver a su resumen",
   retry: "Reintentar",
   copy: "Copiar",
   copyNamed: (what) => `Copiar: ${what}`,
@@ -20,8 +21,10 @@ export const shared = {
   secret: {
     title: "Su enlace personal",
     what: "Con este enlace vuelve a entrar, desde cualquier dispositivo. Solo se muestra esta vez: guárdelo donde lo encuentre.",
-    warning: "Quien tenga este enlace es usted. Sin él, y sin contraseña, solo un docente puede volver a darle acceso.",
+    student: { warning: "Quien tenga este enlace es usted. Sin él, y sin contraseña, solo un docente puede volver a darle acceso." },
+    teacher: { warning: "Quien tenga este enlace es usted. Sin él, y sin contraseña, solo quien lleva este servidor puede volver a darle acceso." },
     login: (login) => `Su usuario es ${login}. Con una contraseña, que puede fijar bajo su nombre, sirve en lugar del enlace.`,
+    loginAndPassword: (login) => `Su usuario es ${login}. Con su contraseña sirve en lugar del enlace.`,
     kept: "Ya he guardado el enlace",
   },
 
@@ -44,6 +47,36 @@ export const shared = {
     notFound: "Aquí no hay tal cosa, o no es suya.",
     refused: (why) => `El servidor no ha aceptado esto: ${why}.`,
     other: (status, why) => `El servidor respondió con un error (${status}): ${why}`,
+  },
+
+  // Lo que no puede ser en un campo.
+  fields: {
+    needed: "Esto hace falta.",
+    incomplete: "Está incompleto: indique el día y la hora, o deje el campo vacío.",
+    moment: "El año debe estar entre 2000 y 2999.",
+    notANumber: "Esto no es un número.",
+    whole: "Hace falta un número entero.",
+    between: (min, max) => `Hace falta un número de ${min} a ${max}.`,
+    characters: (min, max) => (min > 1 ? `Hacen falta de ${min} a ${max} caracteres.` : min === 1 ? `Al menos 1 carácter y como mucho ${max}.` : `Como mucho ${max} caracteres.`),
+    other: "El servidor no acepta esto.",
+    malformed: {
+      name: "Hace falta una línea de texto que no empiece por =, +, - ni @.",
+      number: "Hace falta una línea de texto que no empiece por =, +, - ni @.",
+      title: "Hace falta una línea de texto que no empiece por =, +, - ni @.",
+      comment: "Hace falta una línea de texto que no empiece por =, +, - ni @.",
+      login: "Letras minúsculas de la a a la z, cifras, puntos, guiones y guiones bajos, con al menos una letra.",
+      password: "No bastan espacios en blanco.",
+      deadline: "Esto no es una fecha con su hora.",
+      opens_at: "Esto no es una fecha con su hora.",
+      points: "Hace falta un número con dos decimales como mucho.",
+      attempts: "Hace falta un número entero.",
+    },
+    deadlines: {
+      past: "Ese momento ya ha pasado: nadie podría entregar.",
+      opens: "El plazo debe acabar después de la apertura.",
+      "class-deadline": "No es posterior al plazo de la clase.",
+      "no-deadline": "La clase no tiene plazo.",
+    },
   },
 
   account: {
