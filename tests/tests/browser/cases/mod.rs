@@ -90,6 +90,8 @@ pub const ALL: &[(&str, Case)] = &[
     ("the_classroom_goes_by_keyboard", classroom_pages::the_classroom_goes_by_keyboard),
     ("the_classroom_fits_a_phone_in_both_languages", classroom_pages::the_classroom_fits_a_phone),
     ("whoever_leaves_the_classroom_comes_back_or_is_erased", classroom_pages::whoever_leaves_comes_back_or_is_erased),
+    ("forms_send_what_was_changed_and_refuse_the_rest", classroom_pages::forms_send_what_was_changed),
+    ("places_that_are_none_lead_back", classroom_pages::places_that_are_none_lead_back),
     ("axe_finds_nothing_in_the_classroom", classroom_pages::axe_finds_nothing_in_the_classroom),
     ("the_classroom_s_languages_have_the_same_texts", classroom_pages::both_languages_have_the_same_texts),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
