@@ -5,6 +5,7 @@ mod appearance;
 mod arm;
 pub mod benchmark;
 mod classroom;
+mod classroom_forms;
 mod classroom_pages;
 mod compare;
 mod experiments;
@@ -87,11 +88,11 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_study_is_submitted_by_hand", jobs::a_study_is_submitted_by_hand),
     ("the_jobs_page_fits_a_phone", jobs::the_jobs_page_fits_a_phone),
     ("a_whole_class_is_graded_and_the_numbers_agree", classroom::a_whole_class_is_graded_and_the_numbers_agree),
+    ("forms_send_what_was_changed_and_refuse_the_rest", classroom_forms::forms_send_what_was_changed),
+    ("places_that_are_none_lead_back", classroom_forms::places_that_are_none_lead_back),
     ("the_classroom_goes_by_keyboard", classroom_pages::the_classroom_goes_by_keyboard),
     ("the_classroom_fits_a_phone_in_both_languages", classroom_pages::the_classroom_fits_a_phone),
     ("whoever_leaves_the_classroom_comes_back_or_is_erased", classroom_pages::whoever_leaves_comes_back_or_is_erased),
-    ("forms_send_what_was_changed_and_refuse_the_rest", classroom_pages::forms_send_what_was_changed),
-    ("places_that_are_none_lead_back", classroom_pages::places_that_are_none_lead_back),
     ("axe_finds_nothing_in_the_classroom", classroom_pages::axe_finds_nothing_in_the_classroom),
     ("the_classroom_s_languages_have_the_same_texts", classroom_pages::both_languages_have_the_same_texts),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),
