@@ -80,16 +80,6 @@ export class NumberField extends HTMLElement {
     this.error = null;
   }
 
-  /** Why the text that is shown was refused, or null. */
-  get error() {
-    return this.#message.hidden ? null : this.#message.textContent;
-  }
-
-  /** To the text. */
-  focus() {
-    this.#text.focus();
-  }
-
   /** Shows why the text typed was refused; null when nothing is wrong. */
   set error(message) {
     this.#message.textContent = message ?? "";

@@ -16,11 +16,11 @@ export class SubmitPanel {
   #bar = element("progress", { max: 1, value: 0, hidden: true, "aria-label": own.progress });
   #failure = element("div", { class: "failure" });
 
-  /** `gains()` are those to hand in; null where one of them has to be mended first. */
+  /** `gains()` are those to hand in. */
   constructor(submission, gains) {
     this.#submission = submission;
     this.#gains = gains;
-    this.#button.addEventListener("click", () => this.#submit());
+    this.#button.addEventListener("click", () => submission.submit(this.#gains()));
     submission.addEventListener("change", () => this.#draw());
     this.node.append(this.#button, this.#standing, this.#bar, this.#failure);
   }
@@ -29,15 +29,6 @@ export class SubmitPanel {
   show(assignment) {
     this.#assignment = assignment;
     this.#draw();
-  }
-
-  #submit() {
-    const gains = this.#gains();
-    if (gains) {
-      this.#submission.submit(gains);
-    } else {
-      this.#standing.textContent = own.mend;
-    }
   }
 
   #draw() {

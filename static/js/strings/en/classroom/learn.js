@@ -69,7 +69,6 @@ export const learn = {
   submit: {
     submit: "Hand in",
     progress: "Grading",
-    mend: "Not handed in: one of the gains above is not valid. Mend it first.",
     sending: "Sending…",
     grading: (percent) => `Grading on hidden variants, ${percent} %`,
     trouble: "The connection is interrupted. The attempt is with the server; asking again for its grade…",

@@ -69,7 +69,6 @@ export const learn = {
   submit: {
     submit: "Entregar",
     progress: "Calificación",
-    mend: "No se ha entregado: una de las ganancias no es válida. Corríjala antes.",
     sending: "Enviando…",
     grading: (percent) => `Calificando con variantes ocultas, ${percent} %`,
     trouble: "La conexión se ha interrumpido. El intento está en el servidor; se vuelve a preguntar por la nota…",
