@@ -34,11 +34,6 @@ export class SignInView {
 
   stop() {}
 
-  /** What the address brought is not wanted: the page is shown as without it. */
-  leave() {
-    this.#page.done();
-  }
-
   /** A personal link was opened: nothing to type. */
   async byKey(key) {
     try {
@@ -54,6 +49,11 @@ export class SignInView {
   /** Begins a session with a key, or with login and password. */
   async signIn(values) {
     await client.begin("session", values);
+    this.done();
+  }
+
+  /** The secret of the address has done its work, or is not wanted. */
+  done() {
     this.#page.done();
   }
 

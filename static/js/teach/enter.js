@@ -37,7 +37,7 @@ export class EnterView extends SignInView {
         this.keepLink(await this.#begin(body));
       },
     });
-    const leave = element("button", { type: "button", class: "quiet", onclick: () => this.leave() }, own.haveAccount);
+    const leave = element("button", { type: "button", class: "quiet", onclick: () => this.done() }, own.haveAccount);
     this.node.replaceChildren(element("h1", { tabindex: "-1" }, own.invited), element("p", { class: "lead" }, own.invitedLead), card(own.account, redeem), element("div", { class: "actions" }, leave));
     root.dataset.state = "ready";
   }
