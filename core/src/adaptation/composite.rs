@@ -42,8 +42,8 @@ pub struct CompositeAdaptation<R, T, const N: usize, const P: usize> {
 
 impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
     #[inline(always)]
-    fn theta_hat_rate(&self, w: &[T], gradient: &SVector<T, P>, theta_hat: &[T], rate: &mut [T]) {
-        let (w, theta_hat, rate) = (&w[..P], &theta_hat[..P], &mut rate[..P]);
+    fn theta_hat_rate(&self, w: &SVector<T, P>, gradient: &SVector<T, P>, theta_hat: &[T], rate: &mut [T]) {
+        let (theta_hat, rate) = (&theta_hat[..P], &mut rate[..P]);
         match self {
             Self::Additive { gain, memory_gain } => {
                 for k in 0..P {
@@ -67,6 +67,22 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     fn states(&self) -> usize {
         FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::STATES
+    }
+
+    fn plain_states(&self) -> usize {
+        FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::PLAIN_STATES
+    }
+
+    fn write_plain(&self, states: &[T], plain: &mut [T]) {
+        let filter = FilteredRegressor::<R, T, N, P>::STATES;
+        plain[..filter].copy_from_slice(&states[..filter]);
+        PredictionMemory::<R, T, N, P>::write_plain(&states[filter..], &mut plain[filter..]);
+    }
+
+    fn read_plain(&self, plain: &[T], states: &mut [T]) {
+        let filter = FilteredRegressor::<R, T, N, P>::STATES;
+        states[..filter].copy_from_slice(&plain[..filter]);
+        PredictionMemory::<R, T, N, P>::read_plain(&plain[filter..], &mut states[filter..]);
     }
 
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
@@ -116,7 +132,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         let (filter_rate, memory_rate) = states_rate.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
         let (filtered, filtered_torque) =
             self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
-        self.law.theta_hat_rate(&memory[..P], input.gradient, input.theta_hat, theta_hat_rate);
+        let w = PredictionMemory::<R, T, N, P>::error(memory);
+        self.law.theta_hat_rate(&w, input.gradient, input.theta_hat, theta_hat_rate);
         self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
     }
 }

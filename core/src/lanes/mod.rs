@@ -120,3 +120,37 @@ macro_rules! impl_operators {
 }
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 use impl_operators;
+
+/// Lanes that hold neighbours of one run.
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+macro_rules! impl_pack {
+    ($lanes:ident) => {
+        impl crate::scalar::Pack<f64> for $lanes {
+            const WIDTH: usize = Self::WIDTH;
+            #[inline(always)]
+            fn repeat(number: f64) -> Self {
+                Self::repeat(number)
+            }
+            #[inline(always)]
+            fn load(numbers: &[f64]) -> Self {
+                let mut array = [0.0; Self::WIDTH];
+                array.copy_from_slice(&numbers[..Self::WIDTH]);
+                Self::from_array(array)
+            }
+            #[inline(always)]
+            fn store(self, numbers: &mut [f64]) {
+                numbers[..Self::WIDTH].copy_from_slice(&self.to_array());
+            }
+            #[inline(always)]
+            fn column(rows: &[Self; crate::scalar::MOST_PACKED], lane: usize) -> Self {
+                let mut array = [0.0; Self::WIDTH];
+                for n in 0..Self::WIDTH {
+                    array[n] = rows[n].to_array()[lane];
+                }
+                Self::from_array(array)
+            }
+        }
+    };
+}
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+use impl_pack;

@@ -8,6 +8,10 @@ use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT, TANH_LIMIT};
 
 impl Scalar for f64 {
     type Mask = bool;
+    #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+    type Pack = F64x2;
+    #[cfg(not(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128"))))]
+    type Pack = Self;
     const LANES: usize = 1;
 
     #[inline(always)]

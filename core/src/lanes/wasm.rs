@@ -1,6 +1,6 @@
 //! Two lanes of WASM's simd128.
 
-use super::impl_operators;
+use super::{impl_operators, impl_pack};
 use crate::scalar::{Kernel, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "twenty intrinsics")]
@@ -9,7 +9,7 @@ use std::arch::wasm32::*;
 /// Two lanes, simd128.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct F64x2(v128);
+pub struct F64x2(v128);
 
 impl F64x2 {
     const WIDTH: usize = 2;
@@ -53,9 +53,11 @@ impl F64x2 {
     }
 }
 impl_operators!(F64x2);
+impl_pack!(F64x2);
 
 impl Scalar for F64x2 {
     type Mask = v128;
+    type Pack = Self;
     const LANES: usize = 2;
 
     #[inline(always)]

@@ -5,7 +5,7 @@
 //! (docs/decisions/0015-lanes.md).
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
-use super::impl_operators;
+use super::{impl_operators, impl_pack};
 use crate::scalar::{Kernel, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
@@ -33,7 +33,7 @@ macro_rules! lanes {
         $(#[$doc])*
         #[derive(Clone, Copy)]
         #[repr(transparent)]
-        pub(crate) struct $lanes($vector);
+        pub struct $lanes($vector);
 
         // SAFETY, of every block below: a value of this type exists only on a machine with the instructions named here; see
         // the head of this file. Arrays and vectors of as many numbers have the same layout.
@@ -77,6 +77,7 @@ macro_rules! lanes {
 
         impl Scalar for $lanes {
             type Mask = $mask;
+            type Pack = Self;
             const LANES: usize = $width;
 
             #[inline(always)]
@@ -172,6 +173,9 @@ lanes! {
     bit: |n, bit: i64| _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(n), _mm_cvtsi64_si128(63 - bit))),
     power: |n| _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(n))),
 }
+
+impl_pack!(F64x2);
+impl_pack!(F64x4);
 
 lanes! {
     /// Eight lanes, AVX-512.

@@ -169,6 +169,22 @@ where
         self.layout().len
     }
 
+    fn plain_len(&self) -> usize {
+        self.layout().adaptation + self.adaptation.plain_states()
+    }
+
+    fn write_plain(&self, x: &[T], plain: &mut [T]) {
+        let law = self.layout().adaptation;
+        plain[..law].copy_from_slice(&x[..law]);
+        self.adaptation.write_plain(&x[law..], &mut plain[law..]);
+    }
+
+    fn read_plain(&self, plain: &[T], x: &mut [T]) {
+        let law = self.layout().adaptation;
+        x[..law].copy_from_slice(&plain[..law]);
+        self.adaptation.read_plain(&plain[law..], &mut x[law..]);
+    }
+
     fn initialize(&self, x: &mut [T]) {
         let layout = self.layout();
         let desired = self.trajectory.at(0.0);

@@ -139,7 +139,7 @@ impl<T: Scalar> Lanes<T> {
 
     /// Ends a run, in its state now or before the last step.
     fn end(&mut self, lane: usize, outcome: Outcome, before: bool) {
-        let state = lane_of(if before { self.rk4.before() } else { &self.state }, lane);
+        let state = lane_of(&self.system.plain(if before { self.rk4.before() } else { &self.state }), lane);
         self.runs[lane].end = Some(End { outcome, step: self.step, time_s: self.time_s, state });
     }
 }
@@ -164,7 +164,8 @@ impl<T: Scalar> Lockstep for Lanes<T> {
     }
 
     fn snapshots(self: Box<Self>) -> Vec<Snapshot> {
-        let Self { runs, settings, step, time_s, state, .. } = *self;
+        let Self { system, runs, settings, step, time_s, state, .. } = *self;
+        let state = system.plain(&state);
         let evaluations_per_step = 4;
         let snapshot = |(lane, run): (usize, LaneRun)| {
             let (outcome, step, time_s, state) = match run.end {

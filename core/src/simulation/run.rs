@@ -1,5 +1,6 @@
 //! Advancing a run: steps, samples at their exact times, divergence, pause and resume.
 
+use super::plain::Plain;
 use super::recorder::Recorder;
 use super::{Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, TRACKING_ERROR_LIMIT_RAD};
 use crate::integrators::{Dopri5, Rk4};
@@ -37,6 +38,10 @@ pub struct Simulation {
 impl Simulation {
     /// A run at its start. `identity` names what is simulated in snapshots.
     pub fn new(identity: String, system: Box<dyn StateSpace<f64>>, settings: Settings) -> Self {
+        let system: Box<dyn StateSpace<f64>> = match settings.method {
+            Method::Dopri5(_) if system.plain_len() != system.len() => Box::new(Plain::new(system)),
+            _ => system,
+        };
         let len = system.len();
         let stepper = match settings.method {
             Method::Rk4 => match settings.steps_per_sample() {
@@ -80,7 +85,7 @@ impl Simulation {
         run.step = snapshot.step;
         run.time_s = snapshot.time_s;
         run.evaluations = snapshot.evaluations;
-        run.state = snapshot.state;
+        run.system.read_plain(&snapshot.state, &mut run.state);
         let (expected, found) = (settings.columns.width(), snapshot.rows.len());
         run.recorder.recording = Recording::from_rows(settings.columns, snapshot.rows).ok_or(SnapshotError::Shape {
             what: "rows",
@@ -104,8 +109,8 @@ impl Simulation {
             let found = format!("{} of core {}", snapshot.format, snapshot.core_version);
             return Err(SnapshotError::OtherVersion { found });
         }
-        if snapshot.state.len() != self.state.len() {
-            return shape("state", self.state.len(), snapshot.state.len());
+        if snapshot.state.len() != self.system.plain_len() {
+            return shape("state", self.system.plain_len(), snapshot.state.len());
         }
         if !snapshot.state.iter().chain(&snapshot.rows).all(|x| x.is_finite()) {
             return inconsistent("numbers that are not finite");
@@ -148,7 +153,7 @@ impl Simulation {
                 Stepper::Dopri5(dopri5) => dopri5.step_s(),
             },
             evaluations: self.evaluations,
-            state: self.state.clone(),
+            state: self.state(),
             rows: self.recorder.recording.rows().to_vec(),
             outcome: self.outcome,
         }
@@ -194,9 +199,9 @@ impl Simulation {
         self.evaluations
     }
 
-    /// State vector; joint angles (rad) come first.
-    pub fn state(&self) -> &[f64] {
-        &self.state
+    /// State vector, as snapshots hold it; joint angles (rad) come first.
+    pub fn state(&self) -> Vec<f64> {
+        self.system.plain(&self.state)
     }
 
     /// Estimates θ̂ now.
