@@ -13,6 +13,8 @@ use std::ops::{Add, Mul, Neg, Sub};
 pub trait Kernel {
     /// What it computes.
     type Output;
+    /// Whether it does the same with many numbers, one after another.
+    const LOOPS_OVER_NUMBERS: bool = false;
     /// Computes it.
     fn run(self) -> Self::Output;
 }

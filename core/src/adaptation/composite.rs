@@ -5,7 +5,7 @@
 
 use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, PredictionMemory, Projection};
 use crate::robots::Robot;
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 use nalgebra::SVector;
 
 /// How θ̂ follows the gradient and the memory.
@@ -117,7 +117,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        self.derivative_within(input, states, theta_hat_rate, states_rate);
+        T::compiled(Derivative { law: self, input, states, theta_hat_rate, states_rate });
     }
 
     #[inline(always)]
@@ -135,5 +135,25 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         let w = PredictionMemory::<R, T, N, P>::error(memory);
         self.law.theta_hat_rate(&w, input.gradient, input.theta_hat, theta_hat_rate);
         self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
+    }
+}
+
+/// [`AdaptationLaw::derivative`], to be compiled for a kind of scalar.
+struct Derivative<'a, L, R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
+    law: &'a L,
+    input: &'a AdaptationInput<'a, R, T, N, P>,
+    states: &'a [T],
+    theta_hat_rate: &'a mut [T],
+    states_rate: &'a mut [T],
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Kernel
+    for Derivative<'_, CompositeAdaptation<R, T, N, P>, R, T, N, P>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.law.derivative_within(self.input, self.states, self.theta_hat_rate, self.states_rate);
     }
 }

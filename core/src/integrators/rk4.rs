@@ -72,6 +72,7 @@ struct Stage<'a, T> {
 
 impl<T: Scalar> Kernel for Stage<'_, T> {
     type Output = ();
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) {
@@ -90,6 +91,7 @@ struct NextStage<'a, T> {
 
 impl<T: Scalar> Kernel for NextStage<'_, T> {
     type Output = ();
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) {
@@ -108,6 +110,7 @@ struct End<'a, T> {
 
 impl<T: Scalar> Kernel for End<'_, T> {
     type Output = T;
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) -> T {
@@ -115,22 +118,49 @@ impl<T: Scalar> Kernel for End<'_, T> {
     }
 }
 
-// Functions with arguments of their own, which the compiler then knows not to overlap: it works on several numbers at once.
+/// States worked on together: all are read before any is written, so that the compiler need not know what overlaps.
+const BLOCK: usize = 8;
+
+#[inline(always)]
+fn block<T: Scalar>(x: &[T], at: usize) -> [T; BLOCK] {
+    let (x, mut block) = (&x[at..at + BLOCK], [T::zero(); BLOCK]);
+    for n in 0..BLOCK {
+        block[n] = x[n];
+    }
+    block
+}
 
 #[inline(always)]
 fn stage<T: Scalar>(out: &mut [T], x: &[T], h: T, slope: &[T]) {
-    let len = out.len();
-    let (x, slope) = (&x[..len], &slope[..len]);
-    for n in 0..len {
+    let (len, mut at) = (out.len(), 0);
+    while at + BLOCK <= len {
+        let (mut next, k) = (block(x, at), block(slope, at));
+        for n in 0..BLOCK {
+            next[n] += h * k[n];
+        }
+        out[at..at + BLOCK].copy_from_slice(&next);
+        at += BLOCK;
+    }
+    for n in at..len {
         out[n] = x[n] + h * slope[n];
     }
 }
 
 #[inline(always)]
 fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T]) {
-    let (len, two) = (out.len(), T::splat(2.0));
-    let (sum, x, slope) = (&mut sum[..len], &x[..len], &slope[..len]);
-    for n in 0..len {
+    let two = T::splat(2.0);
+    let (len, mut at) = (out.len(), 0);
+    while at + BLOCK <= len {
+        let (mut next, mut total, k) = (block(x, at), block(sum, at), block(slope, at));
+        for n in 0..BLOCK {
+            total[n] += two * k[n];
+            next[n] += h * k[n];
+        }
+        sum[at..at + BLOCK].copy_from_slice(&total);
+        out[at..at + BLOCK].copy_from_slice(&next);
+        at += BLOCK;
+    }
+    for n in at..len {
         sum[n] += two * slope[n];
         out[n] = x[n] + h * slope[n];
     }
@@ -138,27 +168,26 @@ fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T
 
 #[inline(always)]
 fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) -> T {
-    const SIDE_BY_SIDE: usize = 8;
-    let (len, zero) = (out.len(), T::zero());
-    let (x, sum, slope) = (&x[..len], &sum[..len], &slope[..len]);
-    for n in 0..len {
-        // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
-        // does), several small increments would each be lost and leave it beside the equilibrium.
-        out[n] = x[n] + sixth * (sum[n] + slope[n]);
-    }
     // Zero times a number that is not finite is no number; several sums side by side have less to wait for.
-    let mut zeros = [zero; SIDE_BY_SIDE];
-    let (blocks, rest) = out.as_chunks::<SIDE_BY_SIDE>();
-    for block in blocks {
-        for n in 0..SIDE_BY_SIDE {
-            zeros[n] += block[n] * zero;
+    let (zero, mut zeros) = (T::zero(), [T::zero(); BLOCK]);
+    let (len, mut at) = (out.len(), 0);
+    while at + BLOCK <= len {
+        let (mut next, total, k) = (block(x, at), block(sum, at), block(slope, at));
+        for n in 0..BLOCK {
+            // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
+            // does), several small increments would each be lost and leave it beside the equilibrium.
+            next[n] += sixth * (total[n] + k[n]);
+            zeros[n] += next[n] * zero;
         }
+        out[at..at + BLOCK].copy_from_slice(&next);
+        at += BLOCK;
     }
-    for n in 0..rest.len() {
-        zeros[n] += rest[n] * zero;
+    for n in at..len {
+        out[n] = x[n] + sixth * (sum[n] + slope[n]);
+        zeros[n - at] += out[n] * zero;
     }
     let mut sum = zero;
-    for n in 0..SIDE_BY_SIDE {
+    for n in 0..BLOCK {
         sum += zeros[n];
     }
     sum

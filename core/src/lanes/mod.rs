@@ -26,6 +26,33 @@ pub(crate) trait WithLanes {
     fn with<T: Scalar>(self) -> Self::Output;
 }
 
+/// A number of one run, which may know how its neighbours are worked on together.
+pub(crate) trait Number: Scalar {
+    /// These numbers.
+    fn of(numbers: &[f64]) -> &[Self];
+    /// These numbers, to be written.
+    fn of_mut(numbers: &mut [f64]) -> &mut [Self];
+    /// Plain numbers again.
+    fn plain(numbers: &[Self]) -> &[f64];
+}
+
+/// Something to do with a kind of [`Number`].
+pub(crate) trait WithNumber {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn with<T: Number>(self) -> Self::Output;
+}
+
+/// Does `work` with the kind of number that this machine is fastest with.
+pub(crate) fn with_number<W: WithNumber>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if x86_64::widths().contains(&4) {
+        return work.with::<x86_64::OneOfFour>();
+    }
+    work.with::<f64>()
+}
+
 /// How many lanes this machine can work on side by side, most first; always ends in 1.
 pub fn widths() -> &'static [usize] {
     #[cfg(target_arch = "x86_64")]
@@ -124,22 +151,28 @@ use impl_operators;
 /// Lanes that hold neighbours of one run.
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 macro_rules! impl_pack {
-    ($lanes:ident) => {
-        impl crate::scalar::Pack<f64> for $lanes {
+    ($lanes:ident, $number:ty) => {
+        impl crate::scalar::Pack<$number> for $lanes {
             const WIDTH: usize = Self::WIDTH;
             #[inline(always)]
-            fn repeat(number: f64) -> Self {
-                Self::repeat(number)
+            fn repeat(number: $number) -> Self {
+                Self::repeat(number.into())
             }
             #[inline(always)]
-            fn load(numbers: &[f64]) -> Self {
+            fn load(numbers: &[$number]) -> Self {
                 let mut array = [0.0; Self::WIDTH];
-                array.copy_from_slice(&numbers[..Self::WIDTH]);
+                let numbers = &numbers[..Self::WIDTH];
+                for n in 0..Self::WIDTH {
+                    array[n] = numbers[n].into();
+                }
                 Self::from_array(array)
             }
             #[inline(always)]
-            fn store(self, numbers: &mut [f64]) {
-                numbers[..Self::WIDTH].copy_from_slice(&self.to_array());
+            fn store(self, numbers: &mut [$number]) {
+                let (numbers, array) = (&mut numbers[..Self::WIDTH], self.to_array());
+                for n in 0..Self::WIDTH {
+                    numbers[n] = array[n].into();
+                }
             }
             #[inline(always)]
             fn column(rows: &[Self; crate::scalar::MOST_PACKED], lane: usize) -> Self {

@@ -53,7 +53,7 @@ impl F64x2 {
     }
 }
 impl_operators!(F64x2);
-impl_pack!(F64x2);
+impl_pack!(F64x2, f64);
 
 impl Scalar for F64x2 {
     type Mask = v128;

@@ -3,6 +3,7 @@
 //! Stepping sees only a [`StateSpace`]; [`ClosedLoop`] is the one that a robot and a scheme make. Knows nothing of scenarios.
 //! A diverging run is an [`Outcome`], not an error.
 
+mod as_numbers;
 mod closed_loop;
 mod controller;
 mod imperfect_loop;
@@ -13,6 +14,7 @@ mod recorder;
 mod run;
 mod snapshot;
 
+pub(crate) use as_numbers::AsNumbers;
 pub use closed_loop::{ClosedLoop, InitialVelocity};
 pub use controller::Controller;
 pub use imperfect_loop::ImperfectLoop;
