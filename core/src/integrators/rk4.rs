@@ -121,76 +121,83 @@ impl<T: Scalar> Kernel for End<'_, T> {
 /// States worked on together: all are read before any is written, so that the compiler need not know what overlaps.
 const BLOCK: usize = 8;
 
+/// The first `len` numbers as blocks, and what is left.
 #[inline(always)]
-fn block<T: Scalar>(x: &[T], at: usize) -> [T; BLOCK] {
-    let (x, mut block) = (&x[at..at + BLOCK], [T::zero(); BLOCK]);
-    for n in 0..BLOCK {
-        block[n] = x[n];
-    }
-    block
+fn blocks<T>(numbers: &[T], len: usize) -> (&[[T; BLOCK]], &[T]) {
+    let (blocks, rest) = numbers[..len].as_chunks();
+    (&blocks[..len / BLOCK], &rest[..len % BLOCK])
+}
+
+#[inline(always)]
+fn blocks_mut<T>(numbers: &mut [T], len: usize) -> (&mut [[T; BLOCK]], &mut [T]) {
+    let (blocks, rest) = numbers[..len].as_chunks_mut();
+    (&mut blocks[..len / BLOCK], &mut rest[..len % BLOCK])
 }
 
 #[inline(always)]
 fn stage<T: Scalar>(out: &mut [T], x: &[T], h: T, slope: &[T]) {
-    let (len, mut at) = (out.len(), 0);
-    while at + BLOCK <= len {
-        let (mut next, k) = (block(x, at), block(slope, at));
-        for n in 0..BLOCK {
-            next[n] += h * k[n];
+    let len = out.len();
+    let ((out, out_rest), (x, x_rest), (slope, slope_rest)) =
+        (blocks_mut(out, len), blocks(x, len), blocks(slope, len));
+    for n in 0..len / BLOCK {
+        let (mut next, k) = (x[n], slope[n]);
+        for i in 0..BLOCK {
+            next[i] += h * k[i];
         }
-        out[at..at + BLOCK].copy_from_slice(&next);
-        at += BLOCK;
+        out[n] = next;
     }
-    for n in at..len {
-        out[n] = x[n] + h * slope[n];
+    for i in 0..len % BLOCK {
+        out_rest[i] = x_rest[i] + h * slope_rest[i];
     }
 }
 
 #[inline(always)]
 fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T]) {
-    let two = T::splat(2.0);
-    let (len, mut at) = (out.len(), 0);
-    while at + BLOCK <= len {
-        let (mut next, mut total, k) = (block(x, at), block(sum, at), block(slope, at));
-        for n in 0..BLOCK {
-            total[n] += two * k[n];
-            next[n] += h * k[n];
+    let (len, two) = (out.len(), T::splat(2.0));
+    let ((out, out_rest), (sum, sum_rest)) = (blocks_mut(out, len), blocks_mut(sum, len));
+    let ((x, x_rest), (slope, slope_rest)) = (blocks(x, len), blocks(slope, len));
+    for n in 0..len / BLOCK {
+        let (mut next, mut total, k) = (x[n], sum[n], slope[n]);
+        for i in 0..BLOCK {
+            total[i] += two * k[i];
+            next[i] += h * k[i];
         }
-        sum[at..at + BLOCK].copy_from_slice(&total);
-        out[at..at + BLOCK].copy_from_slice(&next);
-        at += BLOCK;
+        sum[n] = total;
+        out[n] = next;
     }
-    for n in at..len {
-        sum[n] += two * slope[n];
-        out[n] = x[n] + h * slope[n];
+    for i in 0..len % BLOCK {
+        sum_rest[i] += two * slope_rest[i];
+        out_rest[i] = x_rest[i] + h * slope_rest[i];
     }
 }
 
+/// Gives zero where every state is finite: zero times a number that is not is no number.
 #[inline(always)]
 fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) -> T {
-    // Zero times a number that is not finite is no number; several sums side by side have less to wait for.
-    let (zero, mut zeros) = (T::zero(), [T::zero(); BLOCK]);
-    let (len, mut at) = (out.len(), 0);
-    while at + BLOCK <= len {
-        let (mut next, total, k) = (block(x, at), block(sum, at), block(slope, at));
-        for n in 0..BLOCK {
-            // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
-            // does), several small increments would each be lost and leave it beside the equilibrium.
-            next[n] += sixth * (total[n] + k[n]);
-            zeros[n] += next[n] * zero;
+    let (len, zero) = (out.len(), T::zero());
+    let ((out, out_rest), (x, x_rest)) = (blocks_mut(out, len), blocks(x, len));
+    let ((sum, sum_rest), (slope, slope_rest)) = (blocks(sum, len), blocks(slope, len));
+    // Several sums side by side have less to wait for.
+    let mut zeros = [zero; BLOCK];
+    // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection does),
+    // several small increments would each be lost and leave it beside the equilibrium.
+    for n in 0..len / BLOCK {
+        let (mut next, total, k) = (x[n], sum[n], slope[n]);
+        for i in 0..BLOCK {
+            next[i] += sixth * (total[i] + k[i]);
+            zeros[i] += next[i] * zero;
         }
-        out[at..at + BLOCK].copy_from_slice(&next);
-        at += BLOCK;
+        out[n] = next;
     }
-    for n in at..len {
-        out[n] = x[n] + sixth * (sum[n] + slope[n]);
-        zeros[n - at] += out[n] * zero;
+    for i in 0..len % BLOCK {
+        out_rest[i] = x_rest[i] + sixth * (sum_rest[i] + slope_rest[i]);
+        zeros[i] += out_rest[i] * zero;
     }
-    let mut sum = zero;
-    for n in 0..BLOCK {
-        sum += zeros[n];
+    let mut all = zero;
+    for i in 0..BLOCK {
+        all += zeros[i];
     }
-    sum
+    all
 }
 
 #[cfg(test)]

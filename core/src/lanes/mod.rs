@@ -149,7 +149,7 @@ macro_rules! impl_operators {
 use impl_operators;
 
 /// Lanes that hold neighbours of one run.
-#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+#[cfg(target_arch = "x86_64")]
 macro_rules! impl_pack {
     ($lanes:ident, $number:ty) => {
         impl crate::scalar::Pack<$number> for $lanes {
@@ -185,5 +185,5 @@ macro_rules! impl_pack {
         }
     };
 }
-#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+#[cfg(target_arch = "x86_64")]
 use impl_pack;

@@ -21,9 +21,10 @@ impl Number for f64 {
 
 impl Scalar for f64 {
     type Mask = bool;
-    #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+    // In a browser pairs cost as much as they gain (docs/decisions/0018-neighbours.md).
+    #[cfg(target_arch = "x86_64")]
     type Pack = F64x2;
-    #[cfg(not(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128"))))]
+    #[cfg(not(target_arch = "x86_64"))]
     type Pack = Self;
     const LANES: usize = 1;
 

@@ -1,6 +1,6 @@
 //! Two lanes of WASM's simd128.
 
-use super::{impl_operators, impl_pack};
+use super::impl_operators;
 use crate::scalar::{Kernel, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "twenty intrinsics")]
@@ -53,7 +53,6 @@ impl F64x2 {
     }
 }
 impl_operators!(F64x2);
-impl_pack!(F64x2, f64);
 
 impl Scalar for F64x2 {
     type Mask = v128;

@@ -13,8 +13,8 @@ use crate::effects::{Actuator, Load, SampledControl, Sensing};
 use crate::robots::Robot;
 use crate::trajectories::{Desired, Remembered};
 use nalgebra::SVector;
-use std::ops::Range;
 use std::cell::RefCell;
+use std::ops::Range;
 
 /// An arm with imperfections under control.
 pub struct ImperfectLoop<R, const N: usize, const P: usize> {
