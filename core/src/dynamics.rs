@@ -112,8 +112,11 @@ where
 }
 
 /// Whether the inertia matrix is positive definite all over the workspace for parameters `theta`, as far as 2000 well-spread
-/// configurations tell: the pivots of `L D Lᵀ` are positive. Source: paper property 2.1.
-pub fn has_positive_inertia<R: Robot<N, P>, const N: usize, const P: usize>(theta: &SVector<f64, P>) -> bool {
+/// configurations tell, also after `less` (kg·m²) is taken off its diagonal: the pivots of `L D Lᵀ` are positive. Source: paper property 2.1.
+pub fn has_positive_inertia<R: Robot<N, P>, const N: usize, const P: usize>(
+    theta: &SVector<f64, P>,
+    less: &SVector<f64, N>,
+) -> bool {
     const CONFIGURATIONS: u32 = 2000;
     // Multiples of irrational numbers fill the torus evenly.
     const STRIDES: [f64; 6] =
@@ -125,22 +128,22 @@ pub fn has_positive_inertia<R: Robot<N, P>, const N: usize, const P: usize>(thet
         });
         let still = SVector::<f64, N>::zeros();
         let (inertia, _) = R::inertia_and_bias(&R::geometry(&q), theta, &still, &still);
-        factorize(&inertia).pivots.iter().all(|pivot| *pivot > 0.0)
+        factorize(&(inertia - SMatrix::from_diagonal(less))).pivots.iter().all(|pivot| *pivot > 0.0)
     })
 }
 
 /// `A = L D Lᵀ`.
-struct Factors<T, const N: usize> {
+pub(crate) struct Factors<T, const N: usize> {
     /// L below its unit diagonal; the rest is left over from A.
     lower: SMatrix<T, N, N>,
     /// Diagonal of D; all positive exactly where A is positive definite.
-    pivots: SVector<T, N>,
+    pub pivots: SVector<T, N>,
     inverse_pivots: SVector<T, N>,
 }
 
 /// Factors a symmetric matrix: no square root, no pivoting.
 #[inline(always)]
-fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
+pub(crate) fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
     let mut lower = *a;
     let mut pivots = SVector::<T, N>::zeros();
     let mut inverse_pivots = SVector::<T, N>::zeros();
@@ -166,20 +169,28 @@ fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
 /// (an indefinite `A` gives large or non-finite numbers, which the simulation reports as divergence).
 #[inline(always)]
 pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVector<T, N>) -> SVector<T, N> {
-    let Factors { lower: l, inverse_pivots, .. } = factorize(a);
-    let mut x = b;
-    for i in 0..N {
-        for k in 0..i {
-            let known = x[k];
-            x[i] -= l[(i, k)] * known;
+    factorize(a).solve(b)
+}
+
+impl<T: Scalar, const N: usize> Factors<T, N> {
+    /// Solves `A x = b`.
+    #[inline(always)]
+    pub fn solve(&self, b: SVector<T, N>) -> SVector<T, N> {
+        let Self { lower: l, inverse_pivots, .. } = self;
+        let mut x = b;
+        for i in 0..N {
+            for k in 0..i {
+                let known = x[k];
+                x[i] -= l[(i, k)] * known;
+            }
         }
-    }
-    for i in (0..N).rev() {
-        x[i] *= inverse_pivots[i];
-        for k in i + 1..N {
-            let known = x[k];
-            x[i] -= l[(k, i)] * known;
+        for i in (0..N).rev() {
+            x[i] *= inverse_pivots[i];
+            for k in i + 1..N {
+                let known = x[k];
+                x[i] -= l[(k, i)] * known;
+            }
         }
+        x
     }
-    x
 }

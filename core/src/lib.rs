@@ -7,18 +7,23 @@
 //! A control scheme is three choices: a velocity source ([`velocity`]), a feedback law ([`control`]) and an adaptation
 //! law ([`adaptation`]). Start at [`scenario::Scenario`]; the paper's equations live in the files that name them.
 //! Nothing here reads files, clocks or the network, and every target computes the same bits.
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "the platform's functions are what tests compare with"))]
 
 pub mod adaptation;
 pub mod control;
 pub mod decomposition;
+pub mod diagnostics;
 pub mod dynamics;
+mod eigen;
 pub mod effects;
+pub mod exercises;
 pub mod experiments;
 #[cfg(feature = "figures")]
 pub mod figures;
 pub mod integrators;
 pub mod lanes;
 pub mod metrics;
+mod random;
 pub mod recording;
 pub mod regressor;
 pub mod robots;

@@ -33,6 +33,12 @@ pub struct Metrics {
     pub settling_e_s: Vec<Option<f64>>,
     /// Time after which `|ė|` stays within [`SETTLING_BAND_DEG_S`], s; null where it never does.
     pub settling_de_s: Vec<Option<f64>>,
+    /// Ultimate bound: largest `|e|` over the last [`TAIL_SHARE`] of the run, deg; empty in reports of versions that did not know it.
+    #[serde(default)]
+    pub ultimate_bound_e_deg: Vec<f64>,
+    /// Total variation of the torque per second, N·m/s; likewise.
+    #[serde(default)]
+    pub tau_variation_nm_s: Vec<f64>,
 }
 
 /// Performance index `I(x) = sqrt(1/k Σ_{i<k} x_i²)`; zero without samples. Source: paper section 4.3.
@@ -67,6 +73,33 @@ pub fn settling_time_s(
     settled
 }
 
+/// Share of a run, at its end, over which an ultimate bound is taken.
+pub const TAIL_SHARE: f64 = 0.25;
+
+/// Ultimate bound: the largest magnitude in the last `share` of the samples; zero without samples.
+pub fn ultimate_bound(samples: impl ExactSizeIterator<Item = f64>, share: f64) -> f64 {
+    let tail = (samples.len() as f64 * share).ceil() as usize;
+    let before = samples.len() - tail;
+    peak(samples.skip(before))
+}
+
+/// Total variation `Σ |x_{i+1} − x_i|`.
+pub fn total_variation(samples: impl Iterator<Item = f64>) -> f64 {
+    let mut before = None;
+    samples.fold(0.0, |sum, x| sum + (x - before.replace(x).unwrap_or(x)).abs())
+}
+
+/// How often the sign changes; zeros have none.
+pub fn sign_changes(samples: impl Iterator<Item = f64>) -> usize {
+    let mut before = 0.0;
+    let mut changes = 0;
+    for x in samples.filter(|x| *x != 0.0) {
+        changes += usize::from(before * x < 0.0);
+        before = x.signum();
+    }
+    changes
+}
+
 impl Metrics {
     /// Metrics over the first `samples` rows of a recording (the row at the end of the run is no sample); `observed` says
     /// whether a velocity observer ran, and `interval_s` is the time between samples.
@@ -90,6 +123,11 @@ impl Metrics {
             control_effort_n2m2s: tau_rms_nm.iter().map(|tau| tau * tau * recorded_s).collect(),
             settling_e_s: settling(Signal::Error, SETTLING_BAND_DEG),
             settling_de_s: settling(Signal::ErrorRate, SETTLING_BAND_DEG_S),
+            ultimate_bound_e_deg: per_joint(&|joint| ultimate_bound(signal(Signal::Error, joint), TAIL_SHARE).to_degrees()),
+            tau_variation_nm_s: per_joint(&|joint| {
+                let variation = total_variation(signal(Signal::Torque, joint));
+                if recorded_s > 0.0 { variation / recorded_s } else { 0.0 }
+            }),
             tau_peak_nm,
             tau_rms_nm,
         }
@@ -99,6 +137,16 @@ impl Metrics {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bounds_variation_and_changes_of_known_signals() {
+        let x = [9.0, -3.0, 0.0, 2.0, 1.0, -0.5, 0.5, -1.0];
+        assert_eq!(ultimate_bound(x.into_iter(), 0.25), 1.0);
+        assert_eq!(ultimate_bound(x.into_iter(), 1.0), 9.0);
+        assert_eq!(ultimate_bound([].into_iter(), 0.25), 0.0);
+        assert_eq!(total_variation(x.into_iter()), 12.0 + 3.0 + 2.0 + 1.0 + 1.5 + 1.0 + 1.5);
+        assert_eq!(sign_changes(x.into_iter()), 5);
+    }
 
     #[test]
     fn index_and_settling_of_known_signals() {

@@ -1,5 +1,7 @@
 //! Recordings: what a run leaves behind, one row per sample and one for its end, in SI units; and the hash over their bits.
 
+use crate::scalar::Scalar;
+use nalgebra::SVector;
 use std::fmt::Write;
 
 /// A recorded signal.
@@ -46,6 +48,22 @@ impl Signal {
             Self::SlidingVariable => ("s_rad_s", 1.0),
         }
     }
+}
+
+/// Writes a row without its time, in the order of [`Signal::ALL`]: e, ė, z, τ and q (N numbers each), θ̂, s (N numbers).
+#[inline(always)]
+pub(crate) fn write_row<T: Scalar, const N: usize>(
+    row: &mut [T],
+    before_theta_hat: &[SVector<T, N>; 5],
+    theta_hat: &[T],
+    sliding_variable: &SVector<T, N>,
+) {
+    let (joints, rest) = row.split_at_mut(before_theta_hat.len() * N);
+    for (out, block) in joints.chunks_exact_mut(N).zip(before_theta_hat) {
+        out.copy_from_slice(block.as_slice());
+    }
+    rest[..theta_hat.len()].copy_from_slice(theta_hat);
+    rest[theta_hat.len()..].copy_from_slice(sliding_variable.as_slice());
 }
 
 /// Shape of a row: time, then each signal of [`Signal::ALL`] with its joints or parameters.
@@ -145,16 +163,16 @@ impl Recording {
     }
 
     /// Sample times, s.
-    pub fn times_s(&self) -> impl DoubleEndedIterator<Item = f64> + Clone + '_ {
+    pub fn times_s(&self) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.column(0)
     }
 
     /// One component of a signal (0 is the first), SI units.
-    pub fn signal(&self, signal: Signal, component: usize) -> impl DoubleEndedIterator<Item = f64> + Clone + '_ {
+    pub fn signal(&self, signal: Signal, component: usize) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.column(self.columns.start(signal) + component)
     }
 
-    fn column(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> + Clone + '_ {
+    fn column(&self, column: usize) -> impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone + '_ {
         self.rows.chunks_exact(self.columns.width()).map(move |row| row[column])
     }
 

@@ -144,6 +144,12 @@ pub(crate) fn logarithm(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// Logarithm to the base ten.
+#[cfg(feature = "figures")]
+pub(crate) fn decimal_logarithm(x: f64) -> f64 {
+    libm::log10(x)
+}
+
 /// `1 − erf(x)`, exact in the tail too.
 pub(crate) fn complementary_error(x: f64) -> f64 {
     libm::erfc(x)

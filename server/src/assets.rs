@@ -2,7 +2,7 @@
 //!
 //! `/files.json` lists every file with its hash, so that the service worker (`static/sw.js`) can keep the whole page for
 //! use without a server, and never mixes files of two versions. The list is made from what is served: nothing can be
-//! forgotten in it.
+//! forgotten in it. Exercises stand in the same folder and are no part of the page: they hold what students may not see.
 
 use axum::Router;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
@@ -39,10 +39,18 @@ pub fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
         .route(LIST, get(list))
 }
 
+/// Where exercises are; solutions and hidden variants among them.
+const NOT_SERVED: &str = "/exercises/";
+
 fn assets() -> &'static [memory_serve::Asset] {
-    let folders: &[(&str, &'static [memory_serve::Asset])] =
-        include!(concat!(env!("OUT_DIR"), "/memory_serve_assets.rs"));
-    folders.first().map_or(&[], |(_, assets)| assets)
+    static PAGE: LazyLock<Vec<memory_serve::Asset>> = LazyLock::new(|| {
+        let folders: &[(&str, &'static [memory_serve::Asset])] =
+            include!(concat!(env!("OUT_DIR"), "/memory_serve_assets.rs"));
+        let all = folders.iter().flat_map(|(_, assets)| assets.iter());
+        let served = all.filter(|asset| !asset.route.starts_with(NOT_SERVED));
+        served.map(|asset| memory_serve::Asset { ..*asset }).collect()
+    });
+    &PAGE
 }
 
 /// The list, which browsers ask for at each visit: a tag spares its repetition.

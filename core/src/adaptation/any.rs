@@ -1,6 +1,9 @@
 //! Any adaptation law, chosen when the program runs; also none, for yardsticks whose θ̂ is given.
 
-use super::{AdaptationInput, AdaptationLaw, CompositeAdaptation, GradientAdaptation, LeastSquaresAdaptation};
+use super::{
+    AdaptationInput, AdaptationLaw, CompositeAdaptation, CompositeLaw, ConcurrentLearning, GradientAdaptation,
+    LeastSquaresAdaptation,
+};
 use crate::robots::Robot;
 use crate::scalar::Scalar;
 use nalgebra::SVector;
@@ -16,6 +19,24 @@ pub enum AnyAdaptation<R, T, const N: usize, const P: usize> {
     Composite(CompositeAdaptation<R, T, N, P>),
     /// Least squares with bounded-gain forgetting.
     LeastSquares(LeastSquaresAdaptation<R, T, N, P>),
+    /// Concurrent learning.
+    Concurrent(ConcurrentLearning<R, T, N, P>),
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AnyAdaptation<R, T, N, P> {
+    /// Diagonal of the Γ that weighs parameter errors in the scheme's Lyapunov function; `None` where there is no such constant.
+    pub fn lyapunov_gain(&self) -> Option<SVector<T, P>> {
+        match self {
+            Self::Gradient(law) => Some(law.gain),
+            Self::Concurrent(law) => Some(law.gain),
+            Self::Composite(law) => match &law.law {
+                CompositeLaw::Additive { gain, .. } | CompositeLaw::Projected { gain, .. } => Some(*gain),
+                // It does not cancel what the errors do to the motion: they fade by themselves.
+                CompositeLaw::Mixed(_) => None,
+            },
+            Self::None | Self::LeastSquares(_) => None,
+        }
+    }
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R, T, N, P>
@@ -29,6 +50,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
             Self::Gradient(law) => AdaptationLaw::<R, T, N, P>::states(law),
             Self::Composite(law) => law.states(),
             Self::LeastSquares(law) => law.states(),
+            Self::Concurrent(law) => law.states(),
         }
     }
 
@@ -50,6 +72,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
             Self::Gradient(law) => AdaptationLaw::<R, T, N, P>::initialize(law, geometry, velocity, states),
             Self::Composite(law) => law.initialize(geometry, velocity, states),
             Self::LeastSquares(law) => law.initialize(geometry, velocity, states),
+            Self::Concurrent(law) => law.initialize(geometry, velocity, states),
         }
     }
 
@@ -66,6 +89,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
             Self::Gradient(law) => law.derivative(input, states, theta_hat_rate, states_rate),
             Self::Composite(law) => law.derivative(input, states, theta_hat_rate, states_rate),
             Self::LeastSquares(law) => law.derivative(input, states, theta_hat_rate, states_rate),
+            Self::Concurrent(law) => law.derivative(input, states, theta_hat_rate, states_rate),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Tang and Arteaga: `θ̂' = −δ g − Γ1 Yᵀ s` (paper eq. 9). Proposed: `θ̂' = −Γ (β w + Yᵀ s + f_b)` (paper eq. 14), with
 //! the projection of eq. (19), (20). The memory is the same in both.
 
-use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, PredictionMemory, Projection};
+use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, Mixing, PredictionMemory, Projection};
 use crate::robots::Robot;
 use crate::scalar::{Kernel, Scalar};
 use nalgebra::SVector;
@@ -27,6 +27,8 @@ pub enum CompositeLaw<T, const P: usize> {
         /// f_b.
         projection: Projection<T, P>,
     },
+    /// Each parameter by itself, without the gradient: see [`Mixing`].
+    Mixed(Mixing<P>),
 }
 
 /// A composite law: filter, memory, and how they move θ̂. States: filter, then memory.
@@ -42,7 +44,14 @@ pub struct CompositeAdaptation<R, T, const N: usize, const P: usize> {
 
 impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
     #[inline(always)]
-    fn theta_hat_rate(&self, w: &SVector<T, P>, gradient: &SVector<T, P>, theta_hat: &[T], rate: &mut [T]) {
+    fn theta_hat_rate<R: Robot<N, P>, const N: usize>(
+        &self,
+        memory: &[T],
+        gradient: &SVector<T, P>,
+        theta_hat: &[T],
+        rate: &mut [T],
+    ) {
+        let w = PredictionMemory::<R, T, N, P>::error(memory);
         let (theta_hat, rate) = (&theta_hat[..P], &mut rate[..P]);
         match self {
             Self::Additive { gain, memory_gain } => {
@@ -56,6 +65,7 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
                     rate[k] = -gain[k] * (drive + projection.correction(k, theta_hat[k], drive));
                 }
             }
+            Self::Mixed(mixing) => mixing.theta_hat_rate(&w, |i, j| PredictionMemory::<R, T, N, P>::entry(memory, i, j), rate),
         }
     }
 }
@@ -132,8 +142,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         let (filter_rate, memory_rate) = states_rate.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
         let (filtered, filtered_torque) =
             self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
-        let w = PredictionMemory::<R, T, N, P>::error(memory);
-        self.law.theta_hat_rate(&w, input.gradient, input.theta_hat, theta_hat_rate);
+        self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
         self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
     }
 }

@@ -38,6 +38,22 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         tau_f.fill(T::zero());
     }
 
+    /// Filtered regressor `Yf` and filtered torque `τf` (N·m). Source: paper eq. (10) to (12).
+    pub fn outputs(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        states: &[T],
+    ) -> (Regressor<T, N, P>, SVector<T, N>) {
+        let momentum = R::momentum_regressor(geometry, velocity);
+        let (x, tau_f) = states[..Self::STATES].split_at(R::ENTRIES.len());
+        let mut filtered = Regressor::<T, N, P>::zeros();
+        for (x, &entry) in x.iter().zip(R::ENTRIES) {
+            filtered[entry] = self.bandwidth * momentum[entry] + *x;
+        }
+        (filtered, SVector::from_column_slice(tau_f))
+    }
+
     /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative. Source: paper eq. (10) to (12).
     #[inline(always)]
     pub fn advance(

@@ -4,18 +4,22 @@
 
 mod any;
 mod composite;
+mod concurrent;
 mod filtered_regressor;
 mod gradient;
 mod least_squares;
+mod mixing;
 mod modification;
 mod prediction_memory;
 mod projection;
 
 pub use any::AnyAdaptation;
 pub use composite::{CompositeAdaptation, CompositeLaw};
+pub use concurrent::ConcurrentLearning;
 pub use filtered_regressor::FilteredRegressor;
 pub use gradient::GradientAdaptation;
 pub use least_squares::LeastSquaresAdaptation;
+pub use mixing::Mixing;
 pub use modification::Modification;
 pub use prediction_memory::PredictionMemory;
 pub use projection::Projection;

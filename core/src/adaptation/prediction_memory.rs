@@ -139,14 +139,20 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         if piece.lane == NONE { rows[0] } else { T::Pack::column(&rows, piece.lane) }
     }
 
+    /// Entry (i, j) of Z.
+    pub fn entry(states: &[T], i: usize, j: usize) -> T {
+        match Self::LAYOUT.index(i, j).or(Self::LAYOUT.index(j, i)) {
+            Some(n) if R::PAIRS.contains(&(i.min(j), i.max(j))) => states[Self::W + n],
+            _ => T::zero(),
+        }
+    }
+
     /// Writes the states as people read them: w, then the live upper triangle of Z.
     pub fn write_plain(states: &[T], plain: &mut [T]) {
         let (w, z) = plain.split_at_mut(P);
         w.copy_from_slice(Self::error(states).as_slice());
         for (number, &(i, j)) in z.iter_mut().zip(R::PAIRS) {
-            if let Some(n) = Self::LAYOUT.index(i, j).or(Self::LAYOUT.index(j, i)) {
-                *number = states[Self::W + n];
-            }
+            *number = Self::entry(states, i, j);
         }
     }
 

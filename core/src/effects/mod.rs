@@ -4,11 +4,13 @@
 //! [`SampledControl`], and a torque through an [`Actuator`]; the arm itself carries a [`Load`]. Each is absent unless asked for.
 
 mod actuator;
+mod elasticity;
 mod load;
 mod sampling;
 mod sensing;
 
 pub use actuator::Actuator;
+pub use elasticity::{Elasticity, EncoderSide};
 pub use load::{Disturbance, Load, Payload, Stribeck};
 pub use sampling::{SampledControl, Tick};
 pub use sensing::Sensing;

@@ -4,10 +4,11 @@
 //! ChaCha8 per run, named by the scenario's seed; a sample's place in it follows from its number, so a resumed run
 //! draws what an undisturbed one would.
 
+use crate::random::unit;
 use crate::scalar::{Scalar, logarithm};
 use nalgebra::SVector;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
 
 /// Sensors of a run; zeros are perfect ones.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -59,11 +60,9 @@ impl Sensing {
 
 /// Two independent numbers of the normal distribution. Source: Box and Muller (1958).
 fn normal_pair(stream: &mut ChaCha8Rng) -> (f64, f64) {
-    const UNIT: f64 = 1.0 / (1_u64 << 53) as f64;
-    let mut uniform = || (stream.next_u64() >> 11) as f64 * UNIT;
     // In (0, 1], so that the logarithm is finite.
-    let radius = (-2.0 * logarithm(1.0 - uniform())).sqrt();
-    let (sin, cos) = Scalar::sin_cos(std::f64::consts::TAU * uniform());
+    let radius = (-2.0 * logarithm(1.0 - unit(stream))).sqrt();
+    let (sin, cos) = Scalar::sin_cos(std::f64::consts::TAU * unit(stream));
     (radius * cos, radius * sin)
 }
 

@@ -3,7 +3,7 @@
 //!
 //! The state is a value: candidates follow from it and a stream of random numbers, so it can be stored and taken up anywhere.
 
-use super::eigen::symmetric_eigen;
+use crate::eigen::symmetric_eigen;
 use super::normal::normal_quantile;
 use super::statistics::ranks;
 use super::stream::Stream;

@@ -52,7 +52,7 @@ pub enum DistributionKind {
 
 /// A distribution that has been checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Distribution {
+pub(crate) struct Distribution {
     shape: Shape,
     /// Of the value, or of its logarithm.
     low: f64,

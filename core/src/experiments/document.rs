@@ -209,7 +209,8 @@ pub struct SettingDocument {
     pub relative: bool,
 }
 
-/// A search for the best values, by CMA-ES with restarts.
+/// A search for the best values, by CMA-ES with restarts; or, with several objectives, for the values of which none beats another, by
+/// NSGA-II.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -217,22 +218,26 @@ pub struct TuningDocument {
     /// What may be changed.
     pub variables: Vec<VariableDocument>,
     /// What should be small: the weighted sum of these.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objective: Vec<GoalDocument>,
+    /// In its place two or three, each a weighted sum.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub objectives: Vec<ObjectiveDocument>,
     /// What must not be exceeded, or costs.
     #[serde(default)]
     pub constraints: Vec<ConstraintDocument>,
     /// The plants that every candidate is tried on; the base's alone if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plants: Option<PlantsDocument>,
-    /// Candidates per generation; `4 + 3 ln n` for n variables if left out. Doubled by each restart.
+    /// Candidates per generation; `4 + 3 ln n` for n variables if left out, 40 with several objectives. Doubled by each restart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub population: Option<u32>,
     /// Candidates in all; a generation that has begun is finished.
     pub evaluations: u32,
-    /// Restarts, each from a random place, once the search has settled.
+    /// Restarts, each from a random place, once the search has settled; none with several objectives.
     #[serde(default)]
     pub restarts: u32,
-    /// Standard deviation of the first candidates, as a share of each variable's range.
+    /// Standard deviation of the first candidates, as a share of each variable's range; with several objectives they are anywhere.
     #[serde(default = "default_step")]
     pub initial_step: f64,
 }
@@ -258,6 +263,17 @@ pub struct VariableDocument {
     /// Whether values are factors on what the base says.
     #[serde(default)]
     pub relative: bool,
+}
+
+/// One of several objectives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ObjectiveDocument {
+    /// What it is called.
+    pub name: String,
+    /// The weighted sum of these.
+    pub terms: Vec<GoalDocument>,
 }
 
 /// A part of the objective: `weight · metric / scale`.

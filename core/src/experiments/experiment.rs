@@ -10,7 +10,7 @@ use super::limits::EXPERIMENT_LIMITS;
 use super::resolve;
 use super::row::{ResultColumns, Row};
 use super::tuning::TuningPlan;
-use crate::scenario::{Problem, ReadError, Scenario, ScenarioError, read_document, run_each};
+use crate::scenario::{Problem, ReadError, Report, Scenario, ScenarioError, read_document, run_each};
 use serde::Deserializer;
 use std::ops::{ControlFlow, Range};
 
@@ -93,6 +93,19 @@ impl Experiment {
         self.bases.iter().map(|base| base.name.as_str())
     }
 
+    /// Their scenarios.
+    pub fn base_scenarios(&self) -> impl ExactSizeIterator<Item = &Scenario> {
+        self.bases.iter().map(|base| &base.scenario)
+    }
+
+    /// Runs of all kinds at most: those that there are, or what a tuning may come to.
+    pub fn most_runs(&self) -> u64 {
+        match &self.work {
+            Work::LaidOut(layout) => layout.runs(),
+            Work::Searched(plan) => plan.most_runs(),
+        }
+    }
+
     pub(super) fn layout(&self) -> Option<&Layout> {
         match &self.work {
             Work::LaidOut(layout) => Some(layout),
@@ -159,10 +172,20 @@ impl Experiment {
                     indices.push(run.index);
                     scenarios.push(scenario);
                 }
-                Err(error) => each(Row::refused(run.index, &self.columns, error.to_string()))?,
+                Err(error) => each(self.refused(run.index, &error))?,
             }
         }
-        run_each(&scenarios, |n, run| each(Row::of(indices[n], &self.columns, &run.report)))
+        run_each(&scenarios, |n, run| each(self.row(indices[n], &run.report)))
+    }
+
+    /// What is kept of a run that was made.
+    pub fn row(&self, index: u64, report: &Report) -> Row {
+        Row::of(index, &self.columns, report)
+    }
+
+    /// What is kept of a run whose scenario is not allowed.
+    pub fn refused(&self, index: u64, why: &ScenarioError) -> Row {
+        Row::refused(index, &self.columns, why.to_string())
     }
 }
 

@@ -8,11 +8,11 @@ use ciborium::Value;
 
 /// A scenario as a tree.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tree(Value);
+pub(crate) struct Tree(Value);
 
 /// What becomes of a number.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Change {
+pub(crate) struct Change {
     /// JSON pointer without `*`.
     pub pointer: String,
     /// Whether the value is a factor.

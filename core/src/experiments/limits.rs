@@ -54,7 +54,7 @@ pub const EXPERIMENT_LIMITS: ExperimentLimits = ExperimentLimits {
 type Check = Result<(), ScenarioError>;
 
 /// Whether a number is within its limits.
-pub(super) fn check_range(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static str) -> Check {
+pub(crate) fn check_range(pointer: &str, value: f64, [min, max]: [f64; 2], unit: &'static str) -> Check {
     // Written so that NaN fails.
     if value >= min && value <= max {
         Ok(())
@@ -64,7 +64,7 @@ pub(super) fn check_range(pointer: &str, value: f64, [min, max]: [f64; 2], unit:
 }
 
 /// Whether a list has from 1 to `most` elements.
-pub(super) fn check_count(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
+pub(crate) fn check_count(pointer: &str, found: usize, most: usize, what: &'static str) -> Check {
     match found {
         0 => Err(conflict(pointer, format!("is empty; it needs at least one of these: {what}"))),
         _ if found > most => Err(ScenarioError::new(pointer, Problem::TooMany { found, most, what })),
@@ -73,7 +73,7 @@ pub(super) fn check_count(pointer: &str, found: usize, most: usize, what: &'stat
 }
 
 /// Whether a name can be shown and told from the others.
-pub(super) fn check_name<'a>(pointer: &str, name: &str, mut earlier: impl Iterator<Item = &'a str>) -> Check {
+pub(crate) fn check_name<'a>(pointer: &str, name: &str, mut earlier: impl Iterator<Item = &'a str>) -> Check {
     let length = name.chars().count();
     check_range(pointer, length as f64, [1.0, EXPERIMENT_LIMITS.name_chars as f64], "characters")?;
     if name.chars().any(char::is_control) {
@@ -86,12 +86,12 @@ pub(super) fn check_name<'a>(pointer: &str, name: &str, mut earlier: impl Iterat
 }
 
 /// An error about what a field means beside the others.
-pub(super) fn conflict(pointer: impl Into<String>, message: String) -> ScenarioError {
+pub(crate) fn conflict(pointer: impl Into<String>, message: String) -> ScenarioError {
     ScenarioError::new(pointer, Problem::Conflict { message })
 }
 
 /// A name that means nothing where it stands.
-pub(super) fn unknown(pointer: impl Into<String>, value: &str, allowed: String) -> ScenarioError {
+pub(crate) fn unknown(pointer: impl Into<String>, value: &str, allowed: String) -> ScenarioError {
     // A hostile name must not make a hostile message.
     let value = value.chars().take(EXPERIMENT_LIMITS.name_chars).collect();
     ScenarioError::new(pointer, Problem::Unknown { value, allowed })

@@ -7,13 +7,13 @@
 mod cmaes;
 mod distribution;
 mod document;
-mod eigen;
 mod experiment;
 mod fields;
 mod latin;
 mod layout;
 mod limits;
 mod normal;
+mod nsga2;
 mod objective;
 mod paired;
 pub mod replication;
@@ -26,10 +26,18 @@ mod stream;
 mod summary;
 mod tuning;
 
+// Exercises draw, change and name the same things.
+pub(crate) use distribution::Distribution;
+pub(crate) use fields::{Change, Tree};
+pub(crate) use limits::{check_count, check_range, conflict, unknown};
+pub(crate) use resolve::{changes, check_fields, random_fields};
+pub(crate) use statistics::quantile;
+pub(crate) use stream::{Purpose, Stream};
+
 pub use distribution::{DistributionDocument, DistributionKind};
 pub use document::{
     Aggregate, AxisDocument, BaseDocument, CompareDocument, ConditionDocument, ConstraintDocument, EXPERIMENT_FORMAT,
-    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, PlantsDocument, RandomFieldDocument,
+    ExperimentDocument, ExperimentKind, GoalDocument, MonteCarloDocument, ObjectiveDocument, PlantsDocument, RandomFieldDocument,
     SettingDocument, SweepDesign, SweepDocument, TuningDocument, VariableDocument,
 };
 pub use experiment::{Experiment, PlannedRun};
@@ -40,4 +48,4 @@ pub use results::{FoldError, Results};
 pub use row::{ResultColumns, Row, RowOutcome};
 pub use statistics::{Share, Statistics};
 pub use summary::{GroupSummary, MetricSummary, Refusal, Sensitivity, Summary};
-pub use tuning::{Candidate, Generation, Tuning, TuningError, TuningSummary, Validation};
+pub use tuning::{Candidate, Front, FrontCandidate, Generation, Tuning, TuningError, TuningSummary, Validation};

@@ -2,7 +2,7 @@
 
 use super::cmaes::Cma;
 use super::distribution::Distribution;
-use super::document::{Aggregate, PlantsDocument, TuningDocument, VariableDocument};
+use super::document::{Aggregate, GoalDocument, PlantsDocument, TuningDocument, VariableDocument};
 use super::experiment::{Base, bounded};
 use super::fields::{Change, Tree};
 use super::limits::{EXPERIMENT_LIMITS, check_count, check_range, unknown};
@@ -10,7 +10,7 @@ use super::resolve::{changes, check_fields, even, random_fields};
 use super::row::{ResultColumns, Row, RowOutcome};
 use super::stream::{Purpose, Stream};
 use crate::scalar::logarithm;
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::{Problem, Scenario, ScenarioError};
 
 /// A field that the search may change.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +25,11 @@ pub(super) struct Variable {
 /// `weight · metric / scale`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Goal {
+    /// The objective that it is a part of.
+    objective: usize,
     pub column: usize,
+    /// JSON pointer to it, from the section on.
+    pub at: String,
     weight: f64,
     pub scale: Option<f64>,
 }
@@ -52,6 +56,8 @@ pub(super) struct TuningPlan {
     pub seed: u64,
     pub variables: Vec<Variable>,
     pub goals: Vec<Goal>,
+    /// Names of several objectives; empty where there is one.
+    pub objectives: Vec<String>,
     constraints: Vec<Constraint>,
     plants: Option<Plants>,
     pub population: usize,
@@ -64,6 +70,9 @@ pub(super) struct TuningPlan {
 const MISSING: f64 = 1e3;
 const DIVERGED: f64 = 1e6;
 const REFUSED: f64 = 3e6;
+
+/// Candidates per generation of a search with several objectives.
+const FRONT_POPULATION: usize = 40;
 
 /// Which plants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,20 +102,8 @@ impl TuningPlan {
 
         let column =
             |name: &str, at: String| columns.place(name).ok_or_else(|| unknown(at, name, columns.names().join(", ")));
-        check_count("/tuning/objective", document.objective.len(), EXPERIMENT_LIMITS.fields, "metrics")?;
-        let mut goals = Vec::new();
-        for (n, goal) in document.objective.iter().enumerate() {
-            let at = format!("/tuning/objective/{n}");
-            check_range(&format!("{at}/weight"), goal.weight, [0.0, 1e6], "")?;
-            if let Some(scale) = goal.scale {
-                check_range(&format!("{at}/scale"), scale, [1e-12, 1e12], "")?;
-            }
-            goals.push(Goal {
-                column: column(&goal.metric, format!("{at}/metric"))?,
-                weight: goal.weight,
-                scale: goal.scale,
-            });
-        }
+        let goals = goals(document, &column)?;
+        let objectives: Vec<_> = document.objectives.iter().map(|objective| objective.name.clone()).collect();
         let mut constraints = Vec::new();
         for (n, constraint) in document.constraints.iter().enumerate() {
             let at = format!("/tuning/constraints/{n}");
@@ -121,19 +118,20 @@ impl TuningPlan {
                 check_range("/tuning/population", f64::from(population), [fewest, most], "candidates")?;
                 population as usize
             }
+            None if !objectives.is_empty() => FRONT_POPULATION,
             None => Cma::default_population(variables.len()),
         };
         check_range(
             "/tuning/restarts",
             f64::from(document.restarts),
-            [0.0, f64::from(EXPERIMENT_LIMITS.restarts)],
-            "",
+            [0.0, if objectives.is_empty() { f64::from(EXPERIMENT_LIMITS.restarts) } else { 0.0 }],
+            if objectives.is_empty() { "" } else { "with several objectives" },
         )?;
         check_range("/tuning/evaluations", f64::from(document.evaluations), [1.0, EXPERIMENT_LIMITS.runs as f64], "")?;
         check_range("/tuning/initial_step", document.initial_step, [1e-4, 1.0], "of the range")?;
         let (evaluations, restarts) = (u64::from(document.evaluations), document.restarts);
         let initial_step = document.initial_step;
-        Ok(Self { seed, variables, goals, constraints, plants, population, evaluations, restarts, initial_step })
+        Ok(Self { seed, variables, goals, objectives, constraints, plants, population, evaluations, restarts, initial_step })
     }
 
     /// Plants of a set.
@@ -188,23 +186,101 @@ impl TuningPlan {
         }
         let mut cost = 0.0;
         for (goal, scale) in self.goals.iter().zip(scales) {
-            cost += goal.weight * row.metrics[goal.column].map_or(MISSING, |metric| metric / scale);
+            cost += goal.of(row, *scale);
         }
+        cost + self.excess(row)
+    }
+
+    /// Price of exceeded limits in a run that reached its end.
+    fn excess(&self, row: &Row) -> f64 {
+        let mut price = 0.0;
         for constraint in &self.constraints {
             let excess = row.metrics[constraint.column].map_or(MISSING, |metric| metric / constraint.max - 1.0);
-            cost += constraint.weight * excess.max(0.0);
+            price += constraint.weight * excess.max(0.0);
         }
-        cost
+        price
+    }
+
+    /// Each of several objectives on all plants, whose rows these are, and the price of exceeded limits, of runs without an end too.
+    pub fn front_values(&self, rows: &[Row], scales: &[f64], duration_s: f64) -> (Vec<f64>, f64) {
+        let completed = |row: &&Row| row.outcome == RowOutcome::Completed;
+        let over_plants = |values: Vec<f64>| match self.aggregate() {
+            Aggregate::Mean => values.iter().sum::<f64>() / values.len().max(1) as f64,
+            Aggregate::Worst => values.into_iter().fold(0.0, f64::max),
+        };
+        let price = |row: &Row| {
+            let ends = row.outcome == RowOutcome::Completed;
+            if ends { self.excess(row) } else { self.cost(row, scales, duration_s) }
+        };
+        let objective = |n: usize| {
+            let of_run = |row: &Row| {
+                let own = self.goals.iter().zip(scales).filter(|(goal, _)| goal.objective == n);
+                own.map(|(goal, scale)| goal.of(row, *scale)).sum::<f64>()
+            };
+            over_plants(rows.iter().filter(completed).map(of_run).collect())
+        };
+        ((0..self.objectives.len()).map(objective).collect(), over_plants(rows.iter().map(price).collect()))
+    }
+
+    fn aggregate(&self) -> Aggregate {
+        self.plants.as_ref().map_or(Aggregate::Mean, |plants| plants.aggregate)
     }
 
     /// What a candidate costs on all plants, whose rows these are.
     pub fn objective(&self, rows: &[Row], scales: &[f64], duration_s: f64) -> f64 {
         let costs = rows.iter().map(|row| self.cost(row, scales, duration_s));
-        match self.plants.as_ref().map_or(Aggregate::Mean, |plants| plants.aggregate) {
+        match self.aggregate() {
             Aggregate::Mean => costs.sum::<f64>() / rows.len() as f64,
             Aggregate::Worst => costs.fold(f64::NEG_INFINITY, f64::max),
         }
     }
+}
+
+impl Goal {
+    /// `weight · metric / scale` of a run that reached its end.
+    fn of(&self, row: &Row, scale: f64) -> f64 {
+        self.weight * row.metrics[self.column].map_or(MISSING, |metric| metric / scale)
+    }
+}
+
+/// The parts of one objective, or of several: `column` finds a metric's place.
+fn goals(
+    document: &TuningDocument,
+    column: &impl Fn(&str, String) -> Result<usize, ScenarioError>,
+) -> Result<Vec<Goal>, ScenarioError> {
+    let (one, several) = (&document.objective, &document.objectives);
+    if !one.is_empty() && !several.is_empty() {
+        let message = "stands in the place of objective: give one of the two".to_owned();
+        return Err(ScenarioError::new("/tuning/objectives", Problem::Conflict { message }));
+    }
+    if several.is_empty() {
+        return goals_of(0, one, "objective", column);
+    }
+    check_range("/tuning/objectives", several.len() as f64, [2.0, 3.0], "objectives")?;
+    let mut goals = Vec::new();
+    for (n, objective) in several.iter().enumerate() {
+        goals.append(&mut goals_of(n, &objective.terms, &format!("objectives/{n}/terms"), column)?);
+    }
+    Ok(goals)
+}
+
+fn goals_of(
+    objective: usize,
+    terms: &[GoalDocument],
+    list: &str,
+    column: &impl Fn(&str, String) -> Result<usize, ScenarioError>,
+) -> Result<Vec<Goal>, ScenarioError> {
+    check_count(&format!("/tuning/{list}"), terms.len(), EXPERIMENT_LIMITS.fields, "metrics")?;
+    let goal = |(n, goal): (usize, &GoalDocument)| {
+        let at = format!("/tuning/{list}/{n}");
+        check_range(&format!("{at}/weight"), goal.weight, [0.0, 1e6], "")?;
+        if let Some(scale) = goal.scale {
+            check_range(&format!("{at}/scale"), scale, [1e-12, 1e12], "")?;
+        }
+        let column = column(&goal.metric, format!("{at}/metric"))?;
+        Ok(Goal { objective, column, at, weight: goal.weight, scale: goal.scale })
+    };
+    terms.iter().enumerate().map(goal).collect()
 }
 
 fn variables(document: &VariableDocument, at: &str, tree: &Tree) -> Result<Vec<Variable>, ScenarioError> {

@@ -110,7 +110,7 @@ fn bases(document: &mut ExperimentDocument) -> Result<Vec<Base>, ScenarioError> 
 }
 
 /// The changes that a pointer stands for: in every base the same ones, all numbers.
-pub(super) fn changes(pointer: &str, relative: bool, at: &str, bases: &[&Tree]) -> Result<Vec<Change>, ScenarioError> {
+pub(crate) fn changes(pointer: &str, relative: bool, at: &str, bases: &[&Tree]) -> Result<Vec<Change>, ScenarioError> {
     let mut pointers: Option<Vec<String>> = None;
     for tree in bases {
         let found = tree.expand(pointer, at)?;
@@ -122,7 +122,7 @@ pub(super) fn changes(pointer: &str, relative: bool, at: &str, bases: &[&Tree]) 
 }
 
 /// Refuses a field that is named twice, and too many of them.
-pub(super) fn check_fields(fields: &[Change], most: usize, at: &str) -> Result<(), ScenarioError> {
+pub(crate) fn check_fields(fields: &[Change], most: usize, at: &str) -> Result<(), ScenarioError> {
     if fields.len() > most {
         let problem = crate::scenario::Problem::TooMany { found: fields.len(), most, what: "fields that vary" };
         return Err(ScenarioError::new(at, problem));
@@ -136,7 +136,7 @@ pub(super) fn check_fields(fields: &[Change], most: usize, at: &str) -> Result<(
 }
 
 /// Random fields with their distributions, each element of a list on its own.
-pub(super) fn random_fields(
+pub(crate) fn random_fields(
     fields: &[RandomFieldDocument],
     at: &str,
     bases: &[&Tree],
@@ -272,7 +272,7 @@ fn range_axis(axis: &AxisDocument, n: usize) -> Result<Distribution, ScenarioErr
 }
 
 /// Even between two limits.
-pub(super) fn even(min: Option<f64>, max: Option<f64>, log: bool, at: &str) -> Result<Distribution, ScenarioError> {
+pub(crate) fn even(min: Option<f64>, max: Option<f64>, log: bool, at: &str) -> Result<Distribution, ScenarioError> {
     let kind = if log { DistributionKind::LogUniform } else { DistributionKind::Uniform };
     let document = DistributionDocument { kind, mean: None, sd: None, median: None, log_sd: None, min, max };
     Distribution::new(&document, at)

@@ -25,7 +25,7 @@ fn all(numbers: &[f64]) -> Vec<Option<f64>> {
 }
 
 /// Metrics in the order of their columns.
-const METRICS: [Entry; 10] = [
+const METRICS: [Entry; 12] = [
     ("index_e_deg", |metrics| all(&metrics.index_e_deg), Joints::Rms),
     ("index_de_deg_s", |metrics| all(&metrics.index_de_deg_s), Joints::Rms),
     ("e_peak_deg", |metrics| all(&metrics.e_peak_deg), Joints::Max),
@@ -36,6 +36,8 @@ const METRICS: [Entry; 10] = [
     ("control_effort_n2m2s", |metrics| all(&metrics.control_effort_n2m2s), Joints::Sum),
     ("settling_e_s", |metrics| metrics.settling_e_s.clone(), Joints::Max),
     ("settling_de_s", |metrics| metrics.settling_de_s.clone(), Joints::Max),
+    ("ultimate_bound_e_deg", |metrics| all(&metrics.ultimate_bound_e_deg), Joints::Max),
+    ("tau_variation_nm_s", |metrics| all(&metrics.tau_variation_nm_s), Joints::Sum),
 ];
 
 /// Columns of an experiment's results: each metric over all joints, then joint by joint.
@@ -47,7 +49,7 @@ pub struct ResultColumns {
 
 impl ResultColumns {
     /// For arms of at most so many joints.
-    pub(super) fn new(joints: usize) -> Self {
+    pub(crate) fn new(joints: usize) -> Self {
         let of_metric = |(name, _, _): &Entry| {
             let single = (1..=joints).map(move |joint| format!("{name}_{joint}"));
             std::iter::once((*name).to_owned()).chain(single).collect::<Vec<_>>()
@@ -70,7 +72,8 @@ impl ResultColumns {
         (0..self.names.len()).step_by(self.joints + 1)
     }
 
-    fn of(&self, metrics: &Metrics) -> Vec<Option<f64>> {
+    /// A number per column where there is one.
+    pub(crate) fn of(&self, metrics: &Metrics) -> Vec<Option<f64>> {
         let mut row = Vec::with_capacity(self.names.len());
         for (_, numbers, joints) in &METRICS {
             let mut numbers = numbers(metrics);

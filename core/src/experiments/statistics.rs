@@ -67,7 +67,7 @@ impl Statistics {
 }
 
 /// The value below which a share of sorted numbers lies, linear between them (Hyndman and Fan's type 7). There is one number.
-pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * (sorted.len() - 1) as f64;
     let below = place.floor() as usize;
     let above = (below + 1).min(sorted.len() - 1);

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// What random numbers are for: no two purposes share a stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Purpose {
+pub(crate) enum Purpose {
     /// Values of a Monte Carlo draw.
     Draw = 1,
     /// Order of the cells of a Latin hypercube, per axis.
@@ -28,10 +28,14 @@ pub(super) enum Purpose {
     Validation = 9,
     /// Seed of a run's own noise.
     Noise = 10,
+    /// A variant of an exercise that its student sees.
+    VisibleVariant = 11,
+    /// One that he does not.
+    HiddenVariant = 12,
 }
 
 /// A stream of random numbers.
-pub(super) struct Stream(ChaCha8Rng);
+pub(crate) struct Stream(ChaCha8Rng);
 
 impl Stream {
     /// The stream of `purpose` with this index; indices are below 2⁵⁶.

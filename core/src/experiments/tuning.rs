@@ -1,6 +1,6 @@
 //! A tuning under way: a value that says which runs come next and learns from their rows.
 //!
-//! First the start on all plants, then generations of candidates with restarts of twice the population, in the end the start
+//! Of one objective by CMA-ES (`cmaes`), of several by NSGA-II (`nsga2`). First the start on all plants, then generations of candidates with restarts of twice the population, in the end the start
 //! and the best found on plants that the search never saw. Killed and taken up anywhere, it goes the same way.
 
 pub(super) use super::objective::TuningPlan;
@@ -8,6 +8,7 @@ pub(super) use super::objective::TuningPlan;
 use super::cmaes::Cma;
 use super::experiment::{Base, Experiment, PlannedRun, Work};
 use super::limits::EXPERIMENT_LIMITS;
+use super::nsga2::{Member, Nsga, hypervolume};
 use super::objective::PlantSet;
 use super::row::{Row, RowOutcome};
 use super::statistics::{Share, Statistics};
@@ -24,10 +25,11 @@ pub struct Tuning {
     restart: u32,
     candidates: u64,
     runs: u64,
-    cma: Cma,
+    search: Search,
     scales: Vec<f64>,
     start: Option<Candidate>,
     best: Option<Candidate>,
+    front_reference: Vec<f64>,
     history: Vec<Generation>,
     validation: Option<Validation>,
 }
@@ -38,6 +40,34 @@ enum Phase {
     Search,
     Validation,
     Done,
+}
+
+/// How candidates are found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Search {
+    /// For the best.
+    One(Cma),
+    /// For a front.
+    Front(Nsga),
+}
+
+impl Search {
+    fn ask(&self, plan: &TuningPlan, stream: &mut Stream) -> Vec<Vec<f64>> {
+        match self {
+            Self::One(cma) => cma.ask(stream),
+            Self::Front(nsga) => nsga.ask(plan.variables.len(), stream),
+        }
+    }
+
+    fn is_sound(&self, plan: &TuningPlan) -> bool {
+        let most = EXPERIMENT_LIMITS.population[1] as usize;
+        match self {
+            Self::One(cma) => plan.objectives.is_empty() && cma.is_sound(plan.variables.len()) && cma.population <= most,
+            Self::Front(nsga) => {
+                nsga.is_sound(plan.variables.len(), plan.objectives.len()) && nsga.population == plan.population
+            }
+        }
+    }
 }
 
 /// Values with what they cost on the plants of the search.
@@ -62,8 +92,37 @@ pub struct Generation {
     pub population: u64,
     /// The smallest objective in it.
     pub best: f64,
-    /// Size of the distribution that they came from, in ranges of the variables.
+    /// Size of the distribution that they came from, in ranges of the variables; 0 of a search for a front, which has none.
     pub sigma: f64,
+    /// Hypervolume of the front after it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hypervolume: Option<f64>,
+}
+
+/// Candidates that keep all limits and of which none beats another in every objective.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Front {
+    /// Names of the objectives.
+    pub objectives: Vec<String>,
+    /// Twice the start's objectives: up to there the hypervolume counts.
+    pub reference: Vec<f64>,
+    /// Volume of what the front beats within the reference.
+    pub hypervolume: f64,
+    /// By rising first objective.
+    pub candidates: Vec<FrontCandidate>,
+}
+
+/// A candidate of a front.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FrontCandidate {
+    /// Values of the variables; factors where a variable is relative.
+    pub values: Vec<f64>,
+    /// What it costs, objective by objective.
+    pub objectives: Vec<f64>,
+    /// Generation in which it was tried, from 1; 0 is the start.
+    pub generation: u32,
 }
 
 /// The start and the best found on plants that the search never saw.
@@ -108,8 +167,11 @@ pub struct TuningSummary {
     pub scales: Vec<f64>,
     /// The base's own values.
     pub start: Option<Candidate>,
-    /// The best found; the start if nothing was better.
+    /// The best found; the start if nothing was better. Of several objectives by their sum.
     pub best: Option<Candidate>,
+    /// Of several objectives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub front: Option<Front>,
     /// Both on other plants.
     pub validation: Option<Validation>,
     /// Generation by generation.
@@ -126,14 +188,12 @@ pub enum TuningError {
         expected: usize,
     },
     /// The start has no number that could count as one.
-    #[error(
-        "the start reaches no end or lacks {metric} on every plant, or it is 0: give tuning.objective[{goal}].scale"
-    )]
+    #[error("the start reaches no end or lacks {metric} on every plant, or it is 0: give {goal}/scale")]
     NoScale {
         /// Metric of the goal.
         metric: String,
-        /// Its place.
-        goal: usize,
+        /// JSON pointer to it.
+        goal: String,
     },
 }
 
@@ -148,10 +208,16 @@ impl Experiment {
             restart: 0,
             candidates: 0,
             runs: 0,
-            cma: Cma::new(plan.variables.iter().map(|it| it.start_unit).collect(), plan.initial_step, plan.population),
+            search: if plan.objectives.is_empty() {
+                let start = plan.variables.iter().map(|it| it.start_unit).collect();
+                Search::One(Cma::new(start, plan.initial_step, plan.population))
+            } else {
+                Search::Front(Nsga::new(plan.population))
+            },
             scales: vec![1.0; plan.goals.len()],
             start: None,
             best: None,
+            front_reference: Vec::new(),
             history: Vec::new(),
             validation: None,
         })
@@ -176,9 +242,9 @@ impl Tuning {
         };
         self.experiment_hash == experiment.hash()
             && self.core_version == crate::VERSION
-            && self.cma.is_sound(dimension)
-            && self.cma.population <= EXPERIMENT_LIMITS.population[1] as usize
+            && self.search.is_sound(plan)
             && self.scales.len() == plan.goals.len()
+            && (self.phase == Phase::Start || self.front_reference.len() == plan.objectives.len())
             && fits(&self.start)
             && fits(&self.best)
     }
@@ -200,7 +266,7 @@ impl Tuning {
         match self.phase {
             Phase::Start => (vec![plan.variables.iter().map(|it| it.start).collect()], PlantSet::Search),
             Phase::Search => {
-                let points = self.cma.ask(&mut self.stream(plan));
+                let points = self.search.ask(plan, &mut self.stream(plan));
                 (points.iter().map(|point| plan.values(point)).collect(), PlantSet::Search)
             }
             Phase::Validation => ([values(&self.start), values(&self.best)].concat(), PlantSet::Validation),
@@ -250,10 +316,14 @@ impl Tuning {
             Phase::Start => {
                 let start = Candidate { values: candidates.concat(), objective: objectives[0], generation: 0 };
                 (self.start, self.best) = (Some(start.clone()), Some(start));
+                let points = vec![plan.variables.iter().map(|it| it.start_unit.clamp(0.0, 1.0)).collect()];
+                self.take_in(plan, points, &rows, duration_s, 0);
+                let values = plan.front_values(&rows, &self.scales, duration_s).0;
+                self.front_reference = values.iter().map(|value| 2.0 * value).collect();
                 self.candidates += 1;
                 self.phase = Phase::Search;
             }
-            Phase::Search => self.learn(plan, &candidates, &objectives),
+            Phase::Search => self.learn(plan, &candidates, &objectives, &rows, duration_s),
             Phase::Validation => {
                 self.validation = Some(self.validate(experiment, plan, &rows, duration_s));
                 self.phase = Phase::Done;
@@ -263,11 +333,30 @@ impl Tuning {
         Ok(())
     }
 
-    fn learn(&mut self, plan: &TuningPlan, candidates: &[Vec<f64>], objectives: &[f64]) {
-        let points = self.cma.ask(&mut self.stream(plan));
+    /// Gives a search for a front its members; nothing to another.
+    fn take_in(&mut self, plan: &TuningPlan, points: Vec<Vec<f64>>, rows: &[Row], duration_s: f64, generation: u32) {
+        let Search::Front(nsga) = &mut self.search else { return };
+        let plants = rows.len() / points.len().max(1);
+        let member = |(point, rows): (Vec<f64>, &[Row])| {
+            let (objectives, violation) = plan.front_values(rows, &self.scales, duration_s);
+            Member { point, objectives, violation, generation }
+        };
+        nsga.tell(points.into_iter().zip(rows.chunks(plants.max(1))).map(member).collect());
+    }
+
+    fn learn(
+        &mut self,
+        plan: &TuningPlan,
+        candidates: &[Vec<f64>],
+        objectives: &[f64],
+        rows: &[Row],
+        duration_s: f64,
+    ) {
+        let points = self.search.ask(plan, &mut self.stream(plan));
         let least = objectives.iter().copied().fold(f64::INFINITY, f64::min);
-        let (population, sigma) = (objectives.len() as u64, self.cma.sigma);
-        self.history.push(Generation { restart: self.restart, population, best: least, sigma });
+        let sigma = if let Search::One(cma) = &self.search { cma.sigma } else { 0.0 };
+        let population = objectives.len() as u64;
+        self.history.push(Generation { restart: self.restart, population, best: least, sigma, hypervolume: None });
         self.candidates += population;
         for (values, objective) in candidates.iter().zip(objectives) {
             if self.best.as_ref().is_none_or(|best| *objective < best.objective) {
@@ -275,16 +364,25 @@ impl Tuning {
                 self.best = Some(Candidate { values: values.clone(), objective: *objective, generation });
             }
         }
-        self.cma.tell(&points, objectives);
         let spent = self.candidates > plan.evaluations;
-        let settled = self.cma.has_settled() || !self.cma.is_sound(plan.variables.len());
+        let settled = if let Search::One(cma) = &mut self.search {
+            cma.tell(&points, objectives);
+            cma.has_settled() || !cma.is_sound(plan.variables.len())
+        } else {
+            self.take_in(plan, points, rows, duration_s, self.history.len() as u32);
+            let hypervolume = self.front(plan).map(|front| front.hypervolume);
+            if let Some(generation) = self.history.last_mut() {
+                generation.hypervolume = hypervolume;
+            }
+            false
+        };
         if !spent && settled && self.restart < plan.restarts {
             self.restart += 1;
             let mut stream = Stream::new(plan.seed, Purpose::Restart, u64::from(self.restart));
             let most = EXPERIMENT_LIMITS.population[1] as usize;
             let population = plan.population.saturating_mul(1 << self.restart.min(8)).min(most);
             let mean = plan.variables.iter().map(|_| stream.unit()).collect();
-            self.cma = Cma::new(mean, plan.initial_step, population);
+            self.search = Search::One(Cma::new(mean, plan.initial_step, population));
         } else if spent || settled {
             let validates = plan.plant_count(PlantSet::Validation) > 0;
             self.phase = if validates { Phase::Validation } else { Phase::Done };
@@ -313,6 +411,27 @@ impl Tuning {
         }
     }
 
+    /// The front so far; `None` of a single objective.
+    fn front(&self, plan: &TuningPlan) -> Option<Front> {
+        let Search::Front(nsga) = &self.search else { return None };
+        let members = nsga.front();
+        let reference = self.front_reference.clone();
+        let points: Vec<_> = members.iter().map(|member| member.objectives.as_slice()).collect();
+        Some(Front {
+            objectives: plan.objectives.clone(),
+            hypervolume: hypervolume(&points, &reference),
+            reference,
+            candidates: members
+                .into_iter()
+                .map(|member| FrontCandidate {
+                    values: plan.values(&member.point),
+                    objectives: member.objectives.clone(),
+                    generation: member.generation,
+                })
+                .collect(),
+        })
+    }
+
     /// What it has found so far.
     pub fn summary(&self, experiment: &Experiment) -> TuningSummary {
         let variables = plan(experiment).map_or(&[][..], |plan| &plan.variables);
@@ -328,6 +447,7 @@ impl Tuning {
             scales: self.scales.clone(),
             start: self.start.clone(),
             best: self.best.clone(),
+            front: plan(experiment).and_then(|plan| self.front(plan)),
             validation: self.validation.clone(),
             history: self.history.clone(),
         }
@@ -346,14 +466,15 @@ impl Tuning {
 
 /// What counts as one: as written, or the start's mean over the plants on which it reaches the end.
 fn scales(plan: &TuningPlan, rows: &[Row], columns: &[String]) -> Result<Vec<f64>, TuningError> {
-    let scale = |(n, goal): (usize, &super::objective::Goal)| {
+    let scale = |goal: &super::objective::Goal| {
         if let Some(scale) = goal.scale {
             return Ok(scale);
         }
         let numbers: Vec<_> = rows.iter().filter_map(|row| row.metrics[goal.column]).collect();
         let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
         // Written so that nothing, which is no number, fails.
-        if mean > 0.0 { Ok(mean) } else { Err(TuningError::NoScale { metric: columns[goal.column].clone(), goal: n }) }
+        let missing = || TuningError::NoScale { metric: columns[goal.column].clone(), goal: goal.at.clone() };
+        if mean > 0.0 { Ok(mean) } else { Err(missing()) }
     };
-    plan.goals.iter().enumerate().map(scale).collect()
+    plan.goals.iter().map(scale).collect()
 }

@@ -3,7 +3,7 @@
 use super::panels::{Curve, Panel, Reference};
 use super::run::{PlottedRun, Quantity};
 use super::view::AxisKind;
-use crate::scalar::{inverse_sinh, power};
+use crate::scalar::{decimal_logarithm, inverse_sinh, power};
 
 /// How values map to pixels along one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,12 @@ const DECADES: i32 = 3;
 
 /// Exponent of the power of ten at or above a positive number.
 pub(super) fn decade_above(x: f64) -> i32 {
-    x.log10().ceil() as i32
+    decimal_logarithm(x).ceil() as i32
+}
+
+/// Exponent of the power of ten at or below a positive number.
+pub(super) fn decade_below(x: f64) -> i32 {
+    decimal_logarithm(x).floor() as i32
 }
 
 /// `10^exponent`.

@@ -34,6 +34,14 @@ pub enum Figure {
     Estimates,
     /// One run's torques, split into inertia, Coriolis, gravity, viscous and dry friction. Paper eq. (1).
     TorqueParts,
+    /// Smallest eigenvalue of the regressor's Gram matrix over a moving window, along the motion and along the desired one.
+    Excitation,
+    /// The scheme's Lyapunov function and its rate.
+    Lyapunov,
+    /// The relative parameter error's excited and unexcited part.
+    ParameterErrorParts,
+    /// Kinetic and potential energy, work of the actuators, work lost to friction.
+    Energy,
 }
 
 /// Height of the legend and the time axis' title, layout pixels.
@@ -41,7 +49,7 @@ const AROUND: f64 = 60.0;
 
 impl Figure {
     /// Every figure.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::TrackingErrors,
         Self::VelocityErrors,
         Self::ObserverErrors,
@@ -56,6 +64,10 @@ impl Figure {
         Self::ParameterErrorNorm,
         Self::Estimates,
         Self::TorqueParts,
+        Self::Excitation,
+        Self::Lyapunov,
+        Self::ParameterErrorParts,
+        Self::Energy,
     ];
 
     /// The figures of the replication report: the paper's in its order, and the torques.
@@ -86,6 +98,10 @@ impl Figure {
             Self::ParameterErrorNorm => "parameter_error_norm",
             Self::Estimates => "estimates",
             Self::TorqueParts => "torque_parts",
+            Self::Excitation => "excitation",
+            Self::Lyapunov => "lyapunov",
+            Self::ParameterErrorParts => "parameter_error_parts",
+            Self::Energy => "energy",
         }
     }
 
@@ -124,6 +140,10 @@ impl Figure {
             Self::ParameterErrorNorm => "Relative error of the estimates",
             Self::Estimates => "Parameter estimates",
             Self::TorqueParts => "What the torques are spent on",
+            Self::Excitation => "Excitation of the parameters",
+            Self::Lyapunov => "Lyapunov function",
+            Self::ParameterErrorParts => "Excited and unexcited parameter error",
+            Self::Energy => "Energy",
         }
     }
 
@@ -134,6 +154,7 @@ impl Figure {
             Self::Estimates => (1080, 560),
             Self::PhasePlane => (900, 340),
             Self::ParameterErrorNorm => (900, 300),
+            Self::Excitation | Self::Lyapunov | Self::ParameterErrorParts => (900, 440),
             _ => (900, 620),
         }
     }
@@ -145,6 +166,8 @@ impl Figure {
             Self::Estimates1 | Self::Estimates2 | Self::Estimates3 => (6, 205.0),
             Self::PhasePlane => (3, 270.0),
             Self::ParameterErrorNorm => (1, 240.0),
+            Self::Excitation | Self::Lyapunov | Self::ParameterErrorParts => (2, 140.0),
+            Self::Energy => (4, 140.0),
             _ => (3, 140.0),
         };
         row * f64::from(u32::div_ceil(panels, self.columns(width) as u32)) + AROUND
@@ -171,6 +194,11 @@ impl Figure {
                 | Self::SlidingVariables
                 | Self::ParameterErrorNorm
         )
+    }
+
+    /// Whether it shows the curves of a run's diagnostics.
+    pub const fn shows_diagnostics(self) -> bool {
+        matches!(self, Self::Excitation | Self::Lyapunov | Self::ParameterErrorParts | Self::Energy)
     }
 
     /// Whether a scheme's run belongs in the figure.

@@ -1,11 +1,12 @@
 //! The study's figures, drawn through any plotters backend: canvas in the browser, SVG and PNG on the server.
 //!
 //! `figure` says which there are, `panels` what each shows, `draw` and `panel` how that looks, `readout` what it says in
-//! numbers. One code for all targets.
+//! numbers; `experiment` draws what experiments show. One code for all targets.
 
 mod axes;
 mod decimate;
 mod draw;
+mod experiment;
 mod figure;
 mod legend;
 mod panel;
@@ -20,6 +21,7 @@ mod ticks;
 mod view;
 
 pub use draw::draw;
+pub use experiment::{ExperimentFigure, Shown, draw_experiment, experiment_metrics, experiment_svg};
 pub use figure::Figure;
 pub use panel::PanelPlace;
 pub use panels::Key;

@@ -5,6 +5,7 @@ use super::run::{PlottedRun, Quantity};
 use super::style::{Line, part_line, scheme_style, total_line};
 use super::view::View;
 use crate::decomposition::PARTS;
+use crate::diagnostics::Traced;
 use crate::recording::{Columns, Signal};
 use crate::robots::RobotData;
 
@@ -76,6 +77,21 @@ pub(super) fn panels(figure: Figure, robot: &RobotData, runs: &[PlottedRun<'_>],
         Figure::Estimates3 => builder.estimates(2 * ESTIMATES_PER_FIGURE, ESTIMATES_PER_FIGURE),
         Figure::Estimates => builder.estimates(0, robot.parameter_count()),
         Figure::ParameterErrorNorm => builder.parameter_error(),
+        Figure::Excitation => builder.traced(&[
+            ("λ along q [N²·m²]", Traced::ActualExcitation),
+            ("λ along q_d [N²·m²]", Traced::DesiredExcitation),
+        ]),
+        Figure::Lyapunov => builder.traced(&[("V", Traced::Lyapunov), ("dV/dt [1/s]", Traced::LyapunovRate)]),
+        Figure::ParameterErrorParts => builder.traced(&[
+            ("‖x excited‖", Traced::ExcitedError),
+            ("‖x unexcited‖", Traced::UnexcitedError),
+        ]),
+        Figure::Energy => builder.traced(&[
+            ("T [J]", Traced::Kinetic),
+            ("U − U(0) [J]", Traced::Potential),
+            ("∫ q̇ᵀτ [J]", Traced::Supplied),
+            ("∫ q̇ᵀf [J]", Traced::Dissipated),
+        ]),
         _ => joints.map(|joint| builder.joint(joint)).collect(),
     }
 }
@@ -181,6 +197,10 @@ impl Builder<'_> {
             )
         };
         shown.map(panel).collect()
+    }
+
+    fn traced(&self, panels: &[(&str, Traced)]) -> Vec<Panel> {
+        panels.iter().map(|(label, curve)| self.panel((*label).to_owned(), None, Quantity::Traced(*curve))).collect()
     }
 
     fn parameter_error(&self) -> Vec<Panel> {

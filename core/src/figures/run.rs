@@ -2,6 +2,7 @@
 
 use super::style::Rgb;
 use crate::decomposition::TorqueParts;
+use crate::diagnostics::{Trace, Traced};
 use crate::recording::Recording;
 use crate::scenario::Scheme;
 use std::ops::Range;
@@ -19,6 +20,8 @@ pub struct PlottedRun<'a> {
     pub theta_true: &'a [f64],
     /// Its torques, split; needed by the figure that shows them and by no other.
     pub parts: Option<&'a TorqueParts>,
+    /// Curves of its diagnostics; needed by the figures that show them and by no other.
+    pub trace: Option<&'a Trace>,
     /// Name in the legend; the scheme's own without.
     pub label: Option<&'a str>,
     /// Drawn lighter, thinner and below the others: a run to compare with.
@@ -38,12 +41,14 @@ pub(super) enum Quantity {
     ParameterError { first: usize },
     /// A part of a joint's torque.
     Part { joint: usize, part: usize },
+    /// A curve of the diagnostics.
+    Traced(Traced),
 }
 
 impl<'a> PlottedRun<'a> {
     /// A live run with its scheme's own look.
     pub fn new(scheme: Scheme, recording: &'a Recording, completed: bool, theta_true: &'a [f64]) -> Self {
-        Self { scheme, recording, completed, theta_true, parts: None, label: None, faded: false, color: None }
+        Self { scheme, recording, completed, theta_true, parts: None, trace: None, label: None, faded: false, color: None }
     }
 
     /// Its name in legends.
@@ -106,6 +111,11 @@ impl<'a> PlottedRun<'a> {
             }
             Quantity::ParameterError { first } => {
                 samples.for_each(|row| each(row[0], relative_error(&row[first..], self.theta_true)));
+            }
+            Quantity::Traced(traced) => {
+                if let Some(trace) = self.trace.filter(|trace| trace.len() >= rows.end) {
+                    samples.zip(rows).for_each(|(row, sample)| each(row[0], trace.at(traced, sample)));
+                }
             }
             Quantity::Part { joint, part } => {
                 if let Some(parts) = self.parts.filter(|parts| parts.len() >= rows.end) {

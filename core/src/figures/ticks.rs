@@ -1,6 +1,6 @@
 //! Ticks: round values that a panel has room for, and how they are written.
 
-use super::axes::{Axis, power_of_ten, threshold};
+use super::axes::{Axis, decade_below, power_of_ten, threshold};
 use super::view::AxisKind;
 
 /// A tick: its value and its text.
@@ -22,7 +22,7 @@ pub(super) fn ticks(axis: &Axis, count: usize, scale: f64) -> Vec<Tick> {
 /// Multiples of 1, 2 or 5 times a power of ten; two at least where numbers are fine enough.
 fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let rough = (high - low) / count.max(1) as f64;
-    let decade = power_of_ten(rough.log10().floor() as i32);
+    let decade = power_of_ten(decade_below(rough));
     // The first is the smallest that gives few enough; where it gives but one, the next smaller does better.
     let steps = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2].map(|m| m * decade);
     let fitting = steps.iter().rposition(|step| *step >= rough * (1.0 - EPSILON)).unwrap_or(0);
@@ -43,7 +43,7 @@ fn format(value: f64, step: f64) -> String {
     }
     if !(1e-4..1e5).contains(&step) {
         // As many digits as tell neighbours apart.
-        let digits = ((value.abs() / step).log10().floor().max(0.0)) as usize;
+        let digits = decade_below(value.abs() / step).max(0) as usize;
         let text = format!("{value:.digits$e}");
         return match text.split_once('e') {
             Some((mantissa, exponent)) if mantissa.contains('.') => {
@@ -52,21 +52,20 @@ fn format(value: f64, step: f64) -> String {
             _ => text,
         };
     }
-    let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).max(0.0) as usize;
+    let decimals = (-decade_below(step * (1.0 + 1e-9))).max(0) as usize;
     format!("{value:.decimals$}")
 }
 
 /// Zero and plus and minus powers of ten, every second or third of them where there is no room for all.
 fn symlog(axis: &Axis, apart: f64) -> Vec<Tick> {
-    let exponent = |x: f64| x.log10().floor() as i32;
-    let lowest = (threshold(axis.low, axis.high) * 1.001).log10().floor() as i32;
+    let lowest = decade_below(threshold(axis.low, axis.high) * 1.001);
     let zero = axis.pixel(0.0);
     let mut ticks = vec![(0.0, "0".to_owned())];
     for (end, sign) in [(axis.high, 1.0), (-axis.low, -1.0)] {
         if end <= 0.0 {
             continue;
         }
-        let top = exponent(end);
+        let top = decade_below(end);
         let at = |k: i32| axis.pixel(sign * power_of_ten(k));
         let decade = (at(top) - at(top - 1)).abs();
         let stride = (apart / decade).ceil().clamp(1.0, 9.0) as i32;

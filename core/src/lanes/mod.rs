@@ -81,14 +81,79 @@ pub(crate) fn with_lanes<W: WithLanes>(width: usize, work: W) -> Option<W::Outpu
     }
 }
 
-/// What a type of lanes needs beside its own instructions to be a [`Scalar`]: nalgebra's and num-traits' operators.
+/// Makes a type of lanes a [`Scalar`], with the operators that nalgebra and num-traits ask for, out of what differs between
+/// types: the functions of its own `impl`, one instruction or two each.
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
-macro_rules! impl_operators {
-    ($lanes:ident) => {
-        impl_operators!($lanes, Add, add, AddAssign, add_assign);
-        impl_operators!($lanes, Sub, sub, SubAssign, sub_assign);
-        impl_operators!($lanes, Mul, mul, MulAssign, mul_assign);
-        impl_operators!($lanes, Div, div, DivAssign, div_assign);
+macro_rules! impl_scalar {
+    ($lanes:ident, $width:literal, $mask:ty) => {
+        impl_scalar!(@operators $lanes, $width);
+
+        impl Scalar for $lanes {
+            type Mask = $mask;
+            type Pack = Self;
+            const LANES: usize = $width;
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self::repeat(value)
+            }
+            #[inline(always)]
+            fn from_lanes(number: impl FnMut(usize) -> f64) -> Self {
+                Self::from_array(std::array::from_fn(number))
+            }
+            #[inline(always)]
+            fn lane(self, n: usize) -> f64 {
+                self.to_array()[n]
+            }
+            #[inline(always)]
+            fn compiled<K: Kernel>(kernel: K) -> K::Output {
+                Self::run_with_instructions(kernel)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                if Self::any(Self::repeat(SIN_COS_LIMIT).less_than(self.abs())) {
+                    let both = self.to_array().map(Scalar::sin_cos);
+                    return (Self::from_array(both.map(|b| b.0)), Self::from_array(both.map(|b| b.1)));
+                }
+                transcendental::sin_cos(self)
+            }
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                transcendental::tanh(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.magnitude()
+            }
+            #[inline(always)]
+            fn less_than(self, other: Self) -> $mask {
+                self.is_less(other)
+            }
+            #[inline(always)]
+            fn any(mask: $mask) -> bool {
+                Self::is_anywhere(mask)
+            }
+            #[inline(always)]
+            fn quadrant(self) -> ($mask, $mask, $mask) {
+                let n = self + Self::repeat(ROUNDING);
+                (n.bit(0), n.bit(1), (n + Self::repeat(1.0)).bit(1))
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                // ROUNDING + 1023 is exact too, and its last bits are those of 1023.
+                (self + Self::repeat(ROUNDING + 1023.0)).last_bits_as_exponent()
+            }
+            #[inline(always)]
+            fn select(mask: $mask, if_true: Self, if_false: Self) -> Self {
+                Self::choose(mask, if_true, if_false)
+            }
+        }
+    };
+    (@operators $lanes:ident, $width:literal) => {
+        impl_scalar!($lanes, Add, add, AddAssign, add_assign);
+        impl_scalar!($lanes, Sub, sub, SubAssign, sub_assign);
+        impl_scalar!($lanes, Mul, mul, MulAssign, mul_assign);
+        impl_scalar!($lanes, Div, div, DivAssign, div_assign);
 
         impl std::ops::Neg for $lanes {
             type Output = Self;
@@ -105,7 +170,7 @@ macro_rules! impl_operators {
             }
             #[inline(always)]
             fn is_zero(&self) -> bool {
-                self.to_array() == [0.0; Self::WIDTH]
+                self.to_array() == [0.0; $width]
             }
         }
 
@@ -146,38 +211,38 @@ macro_rules! impl_operators {
     };
 }
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
-use impl_operators;
+use impl_scalar;
 
 /// Lanes that hold neighbours of one run.
 #[cfg(target_arch = "x86_64")]
 macro_rules! impl_pack {
-    ($lanes:ident, $number:ty) => {
+    ($lanes:ident, $width:literal, $number:ty) => {
         impl crate::scalar::Pack<$number> for $lanes {
-            const WIDTH: usize = Self::WIDTH;
+            const WIDTH: usize = $width;
             #[inline(always)]
             fn repeat(number: $number) -> Self {
                 Self::repeat(number.into())
             }
             #[inline(always)]
             fn load(numbers: &[$number]) -> Self {
-                let mut array = [0.0; Self::WIDTH];
-                let numbers = &numbers[..Self::WIDTH];
-                for n in 0..Self::WIDTH {
+                let mut array = [0.0; $width];
+                let numbers = &numbers[..$width];
+                for n in 0..$width {
                     array[n] = numbers[n].into();
                 }
                 Self::from_array(array)
             }
             #[inline(always)]
             fn store(self, numbers: &mut [$number]) {
-                let (numbers, array) = (&mut numbers[..Self::WIDTH], self.to_array());
-                for n in 0..Self::WIDTH {
+                let (numbers, array) = (&mut numbers[..$width], self.to_array());
+                for n in 0..$width {
                     numbers[n] = array[n].into();
                 }
             }
             #[inline(always)]
             fn column(rows: &[Self; crate::scalar::MOST_PACKED], lane: usize) -> Self {
-                let mut array = [0.0; Self::WIDTH];
-                for n in 0..Self::WIDTH {
+                let mut array = [0.0; $width];
+                for n in 0..$width {
                     array[n] = rows[n].to_array()[lane];
                 }
                 Self::from_array(array)

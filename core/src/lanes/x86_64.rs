@@ -5,7 +5,7 @@
 //! (docs/decisions/0015-lanes.md).
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
-use super::{Number, impl_operators, impl_pack};
+use super::{Number, impl_pack, impl_scalar};
 use crate::scalar::{Kernel, Pack, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
@@ -38,8 +38,6 @@ macro_rules! lanes {
         // SAFETY, of every block below: a value of this type exists only on a machine with the instructions named here; see
         // the head of this file. Arrays and vectors of as many numbers have the same layout.
         impl $lanes {
-            const WIDTH: usize = $width;
-
             #[inline(always)]
             fn repeat(value: f64) -> Self {
                 unsafe { Self($repeat(value)) }
@@ -72,78 +70,44 @@ macro_rules! lanes {
             fn div(self, other: Self) -> Self {
                 unsafe { Self($div(self.0, other.0)) }
             }
-        }
-        impl_operators!($lanes);
-
-        impl Scalar for $lanes {
-            type Mask = $mask;
-            type Pack = Self;
-            const LANES: usize = $width;
-
             #[inline(always)]
-            fn splat(value: f64) -> Self {
-                Self::repeat(value)
-            }
-            #[inline(always)]
-            fn from_lanes(number: impl FnMut(usize) -> f64) -> Self {
-                Self::from_array(std::array::from_fn(number))
-            }
-            #[inline(always)]
-            fn lane(self, n: usize) -> f64 {
-                self.to_array()[n]
-            }
-            #[inline(always)]
-            fn compiled<K: Kernel>(kernel: K) -> K::Output {
-                #[target_feature(enable = $features)]
-                fn with_instructions<K: Kernel>(kernel: K) -> K::Output {
-                    kernel.run()
-                }
-                unsafe { with_instructions(kernel) }
-            }
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                if Self::any(Self::repeat(SIN_COS_LIMIT).less_than(self.abs())) {
-                    let both = self.to_array().map(Scalar::sin_cos);
-                    return (Self::from_array(both.map(|b| b.0)), Self::from_array(both.map(|b| b.1)));
-                }
-                transcendental::sin_cos(self)
-            }
-            #[inline(always)]
-            fn tanh(self) -> Self {
-                transcendental::tanh(self)
-            }
-            #[inline(always)]
-            fn abs(self) -> Self {
+            fn magnitude(self) -> Self {
                 unsafe { Self($andnot($repeat(-0.0), self.0)) }
             }
             #[inline(always)]
-            fn less_than(self, other: Self) -> $mask {
+            fn is_less(self, other: Self) -> $mask {
                 unsafe { $less(self.0, other.0) }
             }
             #[inline(always)]
-            fn any(mask: $mask) -> bool {
+            fn is_anywhere(mask: $mask) -> bool {
                 #[allow(unused_unsafe, reason = "masks of eight lanes are plain numbers")]
                 unsafe {
                     $any(mask)
                 }
             }
             #[inline(always)]
-            fn quadrant(self) -> ($mask, $mask, $mask) {
-                let n = self + Self::repeat(ROUNDING);
-                let next = n + Self::repeat(1.0);
-                unsafe { ($bit(n.0, 0), $bit(n.0, 1), $bit(next.0, 1)) }
-            }
-            #[inline(always)]
-            fn power_of_two(self) -> Self {
-                // ROUNDING + 1023 is exact too, and its last bits are those of 1023.
-                let biased = self + Self::repeat(ROUNDING + 1023.0);
-                unsafe { Self($power(biased.0)) }
-            }
-            #[inline(always)]
-            fn select(mask: $mask, if_true: Self, if_false: Self) -> Self {
+            fn choose(mask: $mask, if_true: Self, if_false: Self) -> Self {
                 unsafe { Self($select(mask, if_true.0, if_false.0)) }
             }
+            /// Whether a bit is set.
+            #[inline(always)]
+            fn bit(self, bit: i64) -> $mask {
+                unsafe { $bit(self.0, bit) }
+            }
+            #[inline(always)]
+            fn last_bits_as_exponent(self) -> Self {
+                unsafe { Self($power(self.0)) }
+            }
+            #[inline(always)]
+            fn run_with_instructions<K: Kernel>(kernel: K) -> K::Output {
+                #[target_feature(enable = $features)]
+                fn with_instructions<K: Kernel>(kernel: K) -> K::Output {
+                    kernel.run()
+                }
+                unsafe { with_instructions(kernel) }
+            }
         }
+        impl_scalar!($lanes, $width, $mask);
     };
 }
 
@@ -174,8 +138,8 @@ lanes! {
     power: |n| _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(n))),
 }
 
-impl_pack!(F64x2, f64);
-impl_pack!(F64x4, OneOfFour);
+impl_pack!(F64x2, 2, f64);
+impl_pack!(F64x4, 4, OneOfFour);
 
 lanes! {
     /// Eight lanes, AVX-512.
@@ -221,8 +185,6 @@ impl Number for OneOfFour {
 }
 
 impl OneOfFour {
-    const WIDTH: usize = 1;
-
     #[inline(always)]
     fn repeat(value: f64) -> Self {
         Self(value)
@@ -252,7 +214,7 @@ impl OneOfFour {
         Self(self.0 / other.0)
     }
 }
-impl_operators!(OneOfFour);
+impl_scalar!(@operators OneOfFour, 1);
 
 /// As one number does, but for its neighbours.
 impl Scalar for OneOfFour {

@@ -150,6 +150,11 @@ impl RobotData {
         self.parameters.len()
     }
 
+    /// Sizes in which parameters are compared: their nominal magnitudes, or 1 where those are zero.
+    pub fn parameter_sizes(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| if p.value == 0.0 { 1.0 } else { p.value.abs() }).collect()
+    }
+
     /// The parameter vector's true values.
     pub fn theta(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.value).collect()

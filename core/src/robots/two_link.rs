@@ -104,8 +104,7 @@ impl Robot<N, P> for TwoLink {
 
     #[inline(always)]
     fn geometry<T: Scalar>(q: &SVector<T, N>) -> Geometry<T> {
-        let (s1, c1) = q[0].sin_cos();
-        let (s2, c2) = q[1].sin_cos();
+        let ((s1, c1), (s2, c2)) = T::sin_cos_of_two(q[0], q[1]);
         Geometry { c1, c2, s2, c12: c1 * c2 - s1 * s2, s12: s1 * c2 + c1 * s2 }
     }
 

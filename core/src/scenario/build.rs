@@ -188,11 +188,6 @@ pub(super) fn friction_sign<T: Scalar>(documents: &[&ScenarioDocument]) -> Frict
     FrictionSign::from_widths(|lane| Lanes(documents).of(lane).plant.friction.width_rad_s)
 }
 
-/// Whether friction jumps at rest.
-pub(super) fn is_true_sign(document: &ScenarioDocument) -> bool {
-    document.plant.friction.width_rad_s == 0.0
-}
-
 /// True parameters of the simulated arm: the robot's, scaled.
 pub(super) fn theta(document: &ScenarioDocument, robot: &RobotData) -> Vec<f64> {
     let mut theta = robot.theta();
@@ -211,9 +206,12 @@ pub(super) fn torque_parts(document: &ScenarioDocument, robot: &RobotData, recor
     })
 }
 
-/// Whether an arm with these parameters can exist.
-pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64]) -> bool {
-    for_robot!(robot, R, N, P => dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta)))
+/// Whether an arm with these parameters can exist, also with `less` (kg·m² per joint) taken off its inertia.
+pub(super) fn has_positive_inertia(robot: &RobotData, theta: &[f64], less: Option<&[f64]>) -> bool {
+    for_robot!(robot, R, N, P => {
+        let less = less.map_or_else(SVector::zeros, SVector::from_column_slice);
+        dynamics::has_positive_inertia::<R, N, P>(&SVector::from_column_slice(theta), &less)
+    })
 }
 
 /// How long, how fine, what to keep.

@@ -27,15 +27,7 @@ pub(super) fn run_beside(robot: &RobotData, a: &ScenarioDocument, b: &ScenarioDo
 fn of<const N: usize>(scenario: &ScenarioDocument, robot: &RobotData) -> Trajectory<f64, N> {
     let document = &scenario.trajectory;
     let motion: Arc<dyn Motion<N>> = match document.kind {
-        // Source: paper eq. (24).
-        TrajectoryKind::Paper => {
-            return Trajectory::Fourier(Fourier::from_degrees(
-                1.0,
-                &[0.0, 90.0, -90.0],
-                &[vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]],
-                &[],
-            ));
-        }
+        TrajectoryKind::Paper => return Trajectory::Fourier(Fourier::paper()),
         // Validation leaves no `default`.
         TrajectoryKind::Fourier | TrajectoryKind::Default => {
             return Trajectory::Fourier(Fourier::from_degrees(

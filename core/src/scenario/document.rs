@@ -3,7 +3,7 @@
 //! Only shapes and defaults live here; what is allowed is decided in `validate`. Every field but `format` and `scheme`
 //! may be left out and means what the paper does, or what docs/physics.md chose where the paper is silent.
 
-use super::beyond::{AdaptationDocument, EffectsDocument, VelocityDocument};
+use super::beyond::{AdaptationDocument, EffectsDocument, IntegralDocument, SignsDocument, VelocityDocument};
 use super::gains::{ComputedTorqueGains, PdGains, PdGravityGains, ProposedGains, SlotineLiGains, TangArteagaGains};
 pub use super::trajectory_document::{ElbowDocument, TrajectoryDocument, TrajectoryKind};
 use serde::{Deserialize, Serialize};
@@ -36,6 +36,12 @@ pub struct ScenarioDocument {
     /// Changes to the scheme's adaptation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptation: Option<AdaptationDocument>,
+    /// Integral action beside the scheme's law.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub integral: Option<IntegralDocument>,
+    /// Signs of the scheme's terms, to see what a misprint does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub signs: Option<SignsDocument>,
     /// Imperfections of arm, sensors and computer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub effects: Option<EffectsDocument>,
@@ -216,6 +222,8 @@ impl ScenarioDocument {
             scheme,
             velocity: None,
             adaptation: None,
+            integral: None,
+            signs: None,
             effects: None,
             initial: InitialDocument::default(),
             integration: IntegrationDocument::default(),

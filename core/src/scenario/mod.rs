@@ -9,6 +9,7 @@ mod build_trajectory;
 mod document;
 mod error;
 mod gains;
+mod group;
 mod presets;
 mod report;
 mod robot_defaults;
@@ -21,8 +22,9 @@ mod validate;
 mod validate_trajectory;
 
 pub use beyond::{
-    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
-    StribeckDocument, VelocityDocument, VelocityKind,
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
+    IntegralDocument, PayloadDocument, SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument,
+    VelocityKind,
 };
 pub use document::{
     ElbowDocument, FORMAT, FrictionDocument, FrictionKind, InitialDocument, InitialVelocityDocument,
@@ -34,12 +36,14 @@ pub use gains::{
     ComputedTorqueGains, GainInfo, GainSet, GainShape, ModelParameters, PdGains, PdGravityGains, ProjectionBounds,
     ProposedGains, SlotineLiGains, TangArteagaGains,
 };
+pub use group::{Group, groups, run_each};
 pub use presets::{PRESETS, Preset, preset};
 pub use report::{OutcomeKind, Report};
-pub use side_by_side::{SideBySide, run_each};
+pub use side_by_side::SideBySide;
 pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;
+use crate::diagnostics::{Diagnostics, Trace, diagnose};
 use crate::lanes::with_number;
 use crate::metrics::Metrics;
 use crate::recording::Recording;
@@ -201,10 +205,17 @@ impl Scenario {
         let (document, robot) = validate::resolve(document)?;
         let scenario = Self { document, robot };
         let theta = scenario.theta();
-        if theta != robot.theta() && !build::has_positive_inertia(robot, &theta) {
+        if theta != robot.theta() && !build::has_positive_inertia(robot, &theta, None) {
             let message =
                 "gives an inertia matrix that is not positive definite everywhere: no such arm exists".to_owned();
             return Err(ScenarioError::new("/plant/theta_scale", Problem::Conflict { message }));
+        }
+        let elasticity = scenario.document.effects.as_ref().and_then(|effects| effects.elasticity.as_ref());
+        if let Some(motors) = elasticity.map(|elasticity| &elasticity.motor_inertia_kgm2)
+            && !build::has_positive_inertia(robot, &theta, Some(motors))
+        {
+            let message = "is more than the arm's inertia everywhere allows: nothing would be left of the links".to_owned();
+            return Err(ScenarioError::new("/effects/elasticity/motor_inertia_kgm2", Problem::Conflict { message }));
         }
         Ok(scenario)
     }
@@ -263,6 +274,14 @@ impl Scenario {
     /// The torques of a recording of this scenario, split into what they are spent on.
     pub fn torque_parts(&self, recording: &Recording) -> TorqueParts {
         build::torque_parts(&self.document, self.robot, recording)
+    }
+
+    /// What a recording of this scenario tells about excitation, stability, energy: numbers, and curves over its rows.
+    pub fn diagnose(&self, recording: &Recording) -> (Diagnostics, Trace) {
+        let samples = self.settings().samples;
+        for_robot!(self.robot, R, N, P => {
+            diagnose(&beyond::build::imperfect_loop::<R, N, P>(&self.document), recording, samples)
+        })
     }
 
     /// How long, how fine, what is kept.

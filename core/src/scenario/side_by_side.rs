@@ -6,8 +6,8 @@ use super::{Run, Scenario, beyond, build, build_trajectory};
 use crate::lanes::{self, WithLanes};
 use crate::robots::for_robot;
 use crate::scalar::Scalar;
-use crate::simulation::{Lanes, Lockstep};
-use std::ops::ControlFlow;
+use crate::simulation::{Lanes, Lockstep, Snapshot};
+use std::mem::discriminant;
 
 /// Scenarios under way side by side.
 pub struct SideBySide<'a> {
@@ -15,8 +15,8 @@ pub struct SideBySide<'a> {
     lockstep: Box<dyn Lockstep>,
 }
 
-/// Builds the closed loop for a kind of lanes.
-struct Start<'a, 'b>(&'b [&'a Scenario]);
+/// Builds the closed loop for a kind of lanes, at its start or where snapshots left it.
+struct Start<'a, 'b>(&'b [&'a Scenario], Option<Vec<Snapshot>>);
 
 impl WithLanes for Start<'_, '_> {
     type Output = Option<Box<dyn Lockstep>>;
@@ -26,7 +26,11 @@ impl WithLanes for Start<'_, '_> {
         let identities = self.0.iter().map(|scenario| scenario.hash()).collect();
         let robot = self.0[0].robot;
         let system = for_robot!(robot, R, N, P => build::closed_loop::<R, T, N, P>(&documents));
-        Some(Box::new(Lanes::new(identities, system, self.0[0].settings())?))
+        let settings = self.0[0].settings();
+        Some(match self.1 {
+            None => Box::new(Lanes::new(identities, system, settings)?),
+            Some(snapshots) => Box::new(Lanes::resume(system, settings, snapshots)?),
+        })
     }
 }
 
@@ -41,9 +45,9 @@ impl Scenario {
             && self.robot.id == other.robot.id
             && self.scheme() == other.scheme()
             && settings == others
-            && settings.steps_on_grid().is_some()
+            && settings.steps_per_sample().is_some()
             && a.initial.velocity == b.initial.velocity
-            && build::is_true_sign(a) == build::is_true_sign(b)
+            && discriminant(&build::friction_sign::<f64>(&[a])) == discriminant(&build::friction_sign::<f64>(&[b]))
             && build_trajectory::run_beside(self.robot, a, b)
     }
 }
@@ -52,12 +56,26 @@ impl<'a> SideBySide<'a> {
     /// Starts scenarios in `width` lanes; `None` where the machine has no such lanes, there are more scenarios than lanes, or
     /// they cannot run beside each other.
     pub fn start(scenarios: &[&'a Scenario], width: usize) -> Option<Self> {
+        Self::build(scenarios, width, None)
+    }
+
+    /// Goes on where these snapshots left their scenarios; `None` also where they are not snapshots of these or stand at
+    /// different steps.
+    pub fn resume(scenarios: &[&'a Scenario], width: usize, snapshots: Vec<Snapshot>) -> Option<Self> {
+        let fits = |(scenario, snapshot): (&&Scenario, &Snapshot)| scenario.resume(snapshot.clone()).is_ok();
+        if snapshots.len() != scenarios.len() || !scenarios.iter().zip(&snapshots).all(fits) {
+            return None;
+        }
+        Self::build(scenarios, width, Some(snapshots))
+    }
+
+    fn build(scenarios: &[&'a Scenario], width: usize, snapshots: Option<Vec<Snapshot>>) -> Option<Self> {
         let first = scenarios.first()?;
         // The first beside itself, too: alone in a lane it would still be built for lanes.
         if scenarios.len() > width || !scenarios.iter().all(|scenario| first.runs_beside(scenario)) {
             return None;
         }
-        let lockstep = lanes::with_lanes(width, Start(scenarios)).flatten()?;
+        let lockstep = lanes::with_lanes(width, Start(scenarios, snapshots)).flatten()?;
         Some(Self { scenarios: scenarios.to_vec(), lockstep })
     }
 
@@ -71,6 +89,16 @@ impl<'a> SideBySide<'a> {
         self.lockstep.step()
     }
 
+    /// Steps taken with all of them together.
+    pub fn steps_of_all(&self) -> u64 {
+        self.lockstep.steps_of_all()
+    }
+
+    /// Where each is, to go on from another time, in lanes or alone.
+    pub fn snapshots(self) -> Vec<Snapshot> {
+        self.lockstep.snapshots()
+    }
+
     /// The reports on all, with their recordings, in the order of the scenarios.
     pub fn finish(self) -> Vec<Run> {
         let finish = |(scenario, snapshot): (&Scenario, _)| match scenario.resume(snapshot) {
@@ -79,46 +107,4 @@ impl<'a> SideBySide<'a> {
         };
         self.scenarios.into_iter().zip(self.lockstep.snapshots()).map(finish).collect()
     }
-}
-
-/// Runs every scenario to its end, as many side by side as the machine has lanes, and hands each run over with the index of
-/// its scenario as soon as its group has ended; breaks off where `each` says so.
-pub fn run_each(scenarios: &[Scenario], mut each: impl FnMut(usize, Run) -> ControlFlow<()>) -> ControlFlow<()> {
-    let most = lanes::widths()[0];
-    for group in groups(scenarios, most) {
-        let members: Vec<_> = group.iter().map(|&n| &scenarios[n]).collect();
-        let fitting = lanes::widths().iter().copied().filter(|&width| width >= members.len()).min();
-        let lanes = fitting.filter(|&width| width > 1).and_then(|width| SideBySide::start(&members, width));
-        let runs = match lanes {
-            Some(mut lanes) => {
-                lanes.advance(u64::MAX);
-                lanes.finish()
-            }
-            None => members.into_iter().map(Scenario::run).collect(),
-        };
-        for (n, run) in group.into_iter().zip(runs) {
-            each(n, run)?;
-        }
-    }
-    ControlFlow::Continue(())
-}
-
-/// Indices of scenarios that run beside each other, at most `most` together, in the order of their first members.
-fn groups(scenarios: &[Scenario], most: usize) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    // Of each kind, the group that still has room.
-    let mut open: Vec<usize> = Vec::new();
-    for (n, scenario) in scenarios.iter().enumerate() {
-        match open.iter().position(|&group| scenarios[groups[group][0]].runs_beside(scenario)) {
-            Some(kind) if groups[open[kind]].len() < most => groups[open[kind]].push(n),
-            kind => {
-                groups.push(vec![n]);
-                match kind {
-                    Some(kind) => open[kind] = groups.len() - 1,
-                    None => open.push(groups.len() - 1),
-                }
-            }
-        }
-    }
-    groups
 }

@@ -7,6 +7,7 @@ use super::StateSpace;
 use crate::adaptation::{AdaptationInput, AdaptationLaw};
 use crate::control::{SlidingFeedback, SlidingSignals};
 use crate::dynamics::Plant;
+use crate::recording::write_row;
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
 use crate::scalar::{Kernel, Scalar};
@@ -149,12 +150,7 @@ where
             now.torque,
             SVector::<T, N>::from_column_slice(&x[..N]),
         ];
-        let (joints, rest) = row.split_at_mut(blocks.len() * N);
-        for (out, block) in joints.chunks_exact_mut(N).zip(&blocks) {
-            out.copy_from_slice(block.as_slice());
-        }
-        rest[..P].copy_from_slice(&x[layout.theta_hat..layout.adaptation]);
-        rest[P..].copy_from_slice(now.sliding.sliding_variable.as_slice());
+        write_row(row, &blocks, &x[layout.theta_hat..layout.adaptation], &now.sliding.sliding_variable);
     }
 }
 

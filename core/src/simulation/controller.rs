@@ -1,7 +1,7 @@
 //! A controller on its side of the boundary: velocity source, feedback law and adaptation law, put together when the program runs.
 //!
 //! It sees a measurement and the desired motion, and gives a torque command. Knows nothing of the arm's true state. States: the
-//! velocity source's, θ̂, the adaptation law's.
+//! velocity source's, θ̂, the adaptation law's, `∫ e dt`.
 
 use crate::adaptation::{AdaptationInput, AdaptationLaw, AnyAdaptation, Modification};
 use crate::control::{AnyFeedback, SlidingSignals};
@@ -28,6 +28,12 @@ pub struct Controller<R, T, const N: usize, const P: usize> {
     pub friction_sign: FrictionSign<T>,
     /// θ̂(0).
     pub theta_hat_start: SVector<T, P>,
+    /// `K_i` of integral action `−K_i ∫ e dt`, N·m/(rad·s).
+    pub integral: Option<SVector<T, N>>,
+    /// Factor on the model's torque; 1, or −1 for a misprinted sign.
+    pub model_sign: T,
+    /// Factor on the estimates' rate; likewise.
+    pub adaptation_sign: T,
 }
 
 /// What a controller makes of one measurement.
@@ -42,9 +48,14 @@ pub(super) struct Action<R: Robot<N, P>, T: Scalar, const N: usize, const P: usi
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T, N, P> {
+    /// Whether its estimates move.
+    pub(crate) fn adapts(&self) -> bool {
+        !matches!(self.adaptation, AnyAdaptation::None)
+    }
+
     /// Number of states.
     pub(super) fn states(&self) -> usize {
-        self.theta_hat() + P + self.adaptation.states()
+        self.theta_hat() + P + self.adaptation.states() + if self.integral.is_some() { N } else { 0 }
     }
 
     /// Where θ̂ begins among the states.
@@ -66,7 +77,9 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
         let estimate = self.velocity_source.estimate(position, velocity, desired, source);
         let (theta_hat, law) = rest.split_at_mut(P);
         theta_hat.copy_from_slice(self.theta_hat_start.as_slice());
+        let (law, integral) = law.split_at_mut(self.adaptation.states());
         self.adaptation.initialize(&R::geometry(position), &estimate.velocity, law);
+        integral.fill(T::zero());
     }
 
     /// The command for a measurement: angles (rad) and, for sources that measure it, velocity (rad/s).
@@ -91,9 +104,21 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
             &sliding.reference_acceleration,
             &sign_reference,
         );
-        let model = model_torque::<R, T, N, P>(&regressor, &rest[..P]);
-        let command = self.feedback.torque(&sliding, &model);
+        let model = model_torque::<R, T, N, P>(&regressor, &rest[..P]) * self.model_sign;
+        let mut command = self.feedback.torque(&sliding, &model);
+        if let Some(gain) = &self.integral {
+            let integral = SVector::from_column_slice(&rest[P + self.adaptation.states()..]);
+            command -= gain.component_mul(&integral);
+        }
         Action { geometry, sign_estimate, estimate, sliding, regressor, command }
+    }
+
+    /// Lets a law that remembers moments look at this one.
+    pub(super) fn record(&self, action: &Action<R, T, N, P>, states: &mut [T]) {
+        if let AnyAdaptation::Concurrent(law) = &self.adaptation {
+            let law_at = self.theta_hat() + P;
+            law.record(&action.geometry, &action.estimate.velocity, &mut states[law_at..]);
+        }
     }
 
     /// The states' derivative at the instant of an action.
@@ -117,6 +142,11 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
             theta_hat,
         };
         let (theta_hat_rate, law_rate) = rest_rate.split_at_mut(P);
-        self.adaptation.derivative(&input, law, theta_hat_rate, law_rate);
+        let (law_rate, integral_rate) = law_rate.split_at_mut(self.adaptation.states());
+        self.adaptation.derivative(&input, &law[..law_rate.len()], theta_hat_rate, law_rate);
+        for rate in theta_hat_rate {
+            *rate *= self.adaptation_sign;
+        }
+        integral_rate.copy_from_slice(&action.sliding.error.as_slice()[..integral_rate.len()]);
     }
 }

@@ -8,8 +8,9 @@
 use super::controller::{Action, Controller};
 use super::{InitialVelocity, StateSpace};
 use crate::adaptation::AdaptationLaw;
-use crate::dynamics::Plant;
-use crate::effects::{Actuator, Load, SampledControl, Sensing};
+use crate::dynamics::{Plant, solve_symmetric};
+use crate::effects::{Actuator, Elasticity, EncoderSide, Load, SampledControl, Sensing};
+use crate::recording::write_row;
 use crate::robots::Robot;
 use crate::trajectories::{Desired, Remembered};
 use nalgebra::SVector;
@@ -34,6 +35,10 @@ pub struct ImperfectLoop<R, const N: usize, const P: usize> {
     pub actuator: Option<Actuator<f64, N>>,
     /// What else acts on the arm.
     pub load: Load<N, P>,
+    /// Springs between motors and links.
+    pub elasticity: Option<Elasticity<N>>,
+    /// Steps between the moments that a law which remembers some looks at; `None` for other laws.
+    pub record_steps: Option<u64>,
     /// Work space: the controller's derivative at a sample.
     pub work: RefCell<Vec<f64>>,
 }
@@ -46,6 +51,8 @@ struct Layout {
     held: usize,
     mass: usize,
     disturbed: usize,
+    /// Angles and velocities of the motors, if joints are elastic.
+    motors: usize,
     len: usize,
 }
 
@@ -55,13 +62,26 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> ImperfectLoop<R, N, P> {
         let controller = 2 * N;
         let held = controller + self.controller.states();
         let mass = held + 4 * N;
-        Layout { controller, held, mass, disturbed: mass + 1, len: mass + 2 }
+        let motors = mass + 2;
+        let len = if self.elasticity.is_some() { motors + 2 * N } else { motors };
+        Layout { controller, held, mass, disturbed: mass + 1, motors, len }
     }
 
     #[inline(always)]
     fn act(&self, desired: &Desired<f64, N>, x: &[f64]) -> Action<R, f64, N, P> {
         let layout = self.layout();
-        self.controller.act(&vector(x), &vector(&x[N..]), desired, &x[layout.controller..layout.held])
+        let (position, velocity) = self.seen(x);
+        self.controller.act(&position, &velocity, desired, &x[layout.controller..layout.held])
+    }
+
+    /// Angles and velocities on the sensors' side of the springs.
+    #[inline(always)]
+    fn seen(&self, x: &[f64]) -> (SVector<f64, N>, SVector<f64, N>) {
+        let at = match &self.elasticity {
+            Some(elasticity) if elasticity.encoders == EncoderSide::Motor => self.layout().motors,
+            _ => 0,
+        };
+        (vector(&x[at..]), vector(&x[at + N..]))
     }
 
     /// What the actuators give for a command.
@@ -75,10 +95,23 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> ImperfectLoop<R, N, P> {
         let layout = self.layout();
         let velocity = vector::<N>(&x[N..]);
         let sign = self.plant.friction_sign.of(&velocity);
-        let torque = self.load.torque(time_s, x[layout.disturbed] != 0.0, &self.actuate(command), &velocity, &sign);
+        let (disturbed, actuators) = (x[layout.disturbed] != 0.0, self.actuate(command));
         let theta = self.load.theta(&self.plant.theta, x[layout.mass]);
-        let arm = Plant::<R, f64, N, P>::new(theta, self.plant.friction_sign);
-        let acceleration = arm.acceleration(&R::geometry(&vector(x)), &velocity, &sign, &torque);
+        let geometry = R::geometry(&vector(x));
+        let acceleration = if let Some(elasticity) = &self.elasticity {
+            let (motor, motor_velocity) = (vector(&x[layout.motors..]), vector(&x[layout.motors + N..]));
+            let springs = elasticity.torque([&motor, &motor_velocity], [&vector(x), &velocity]);
+            let motors = &mut rate[layout.motors..layout.len];
+            motors[..N].copy_from_slice(motor_velocity.as_slice());
+            motors[N..].copy_from_slice(elasticity.motor_acceleration(&actuators, &springs).as_slice());
+            let torque = self.load.torque(time_s, disturbed, &springs, &velocity, &sign);
+            let (inertia, bias) = R::inertia_and_bias(&geometry, &theta, &velocity, &sign);
+            solve_symmetric(&elasticity.link_inertia(inertia), torque - bias)
+        } else {
+            let torque = self.load.torque(time_s, disturbed, &actuators, &velocity, &sign);
+            let arm = Plant::<R, f64, N, P>::new(theta, self.plant.friction_sign);
+            arm.acceleration(&geometry, &velocity, &sign, &torque)
+        };
         rate[..N].copy_from_slice(velocity.as_slice());
         rate[N..2 * N].copy_from_slice(acceleration.as_slice());
     }
@@ -93,7 +126,7 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> ImperfectLoop<R, N, P> {
             self.write_motion(time_s, x, &vector(&x[layout.held..]), rate);
             rate[layout.controller..layout.held].fill(0.0);
         }
-        rate[layout.held..layout.len].fill(0.0);
+        rate[layout.held..layout.motors].fill(0.0);
     }
 
     fn write_row(&self, desired: &Desired<f64, N>, x: &[f64], action: Option<&Action<R, f64, N, P>>, row: &mut [f64]) {
@@ -106,22 +139,21 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> ImperfectLoop<R, N, P> {
         let position = vector::<N>(x);
         let blocks =
             [position - desired.position, vector::<N>(&x[N..]) - desired.velocity, z, self.actuate(&command), position];
-        let (joints, rest) = row.split_at_mut(blocks.len() * N);
-        for (out, block) in joints.chunks_exact_mut(N).zip(&blocks) {
-            out.copy_from_slice(block.as_slice());
-        }
-        rest[..P].copy_from_slice(self.theta_hat(x));
-        rest[P..].copy_from_slice(s.as_slice());
+        write_row(row, &blocks, self.theta_hat(x), &s);
     }
 
     /// Measures, computes a command, and takes the controller's states one period on.
-    fn sample(&self, number: u64, time_s: f64, delayed: bool, period_s: f64, x: &mut [f64]) {
+    fn sample(&self, number: u64, time_s: f64, (delayed, records): (bool, bool), period_s: f64, x: &mut [f64]) {
         let layout = self.layout();
         let desired = self.trajectory.at(time_s);
-        let (position, velocity) = self.sensing.measure(number, &vector(x), &vector(&x[N..]));
+        let (position, velocity) = self.seen(x);
+        let (position, velocity) = self.sensing.measure(number, &position, &velocity);
         let (before, held) = x.split_at_mut(layout.held);
         let states = &mut before[layout.controller..];
         let action = self.controller.act(&position, &velocity, &desired, states);
+        if records {
+            self.controller.record(&action, states);
+        }
         let mut rate = self.work.borrow_mut();
         rate.resize(states.len(), 0.0);
         self.controller.derivative(&action, states, &mut rate);
@@ -185,6 +217,10 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> StateSpace<f64> for Imperfe
         let velocity = vector::<N>(&x[N..]);
         let states = &mut x[layout.controller..layout.held];
         self.controller.initialize(&desired.position, &velocity, &desired, states);
+        if self.elasticity.is_some() {
+            // Springs without torque, motors as fast as their links.
+            x.copy_within(..2 * N, layout.motors);
+        }
     }
 
     fn derivative(&self, time_s: f64, x: &[f64], rate: &mut [f64]) {
@@ -218,17 +254,25 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> StateSpace<f64> for Imperfe
         let layout = self.layout();
         x[layout.mass] = self.load.mass_kg(time_s);
         x[layout.disturbed] = f64::from(u8::from(self.load.is_disturbed(time_s)));
-        let Some((clock, period_s)) = self.sampling else { return };
+        let records = self.record_steps.is_some_and(|steps| step.is_multiple_of(steps));
+        let Some((clock, period_s)) = self.sampling else {
+            if records {
+                let action = self.act(&self.trajectory.at(time_s), x);
+                self.controller.record(&action, &mut x[layout.controller..layout.held]);
+            }
+            return;
+        };
         let tick = clock.tick(step);
         if tick.arrives {
             x.copy_within(layout.held + N..layout.held + 2 * N, layout.held);
         }
         if let Some(number) = tick.sample {
-            self.sample(number, time_s, clock.delay_steps > 0, period_s, x);
+            self.sample(number, time_s, (clock.delay_steps > 0, records), period_s, x);
         }
     }
 
     fn has_events(&self) -> bool {
-        self.sampling.is_some() || !self.load.payloads.is_empty() || self.load.disturbance.is_some()
+        let loads = !self.load.payloads.is_empty() || self.load.disturbance.is_some();
+        loads || self.sampling.is_some() || self.record_steps.is_some()
     }
 }

@@ -7,6 +7,7 @@ use super::recorder::Recorder;
 use super::run::exceeded_joint;
 use super::{Divergence, Outcome, Settings, Snapshot, StateSpace};
 use crate::integrators::Rk4;
+use crate::recording::Recording;
 use crate::scalar::Scalar;
 
 /// Lanes under way, whatever their scalar.
@@ -15,6 +16,8 @@ pub(crate) trait Lockstep: Send {
     fn advance(&mut self, max_steps: u64) -> bool;
     /// Steps taken.
     fn step(&self) -> u64;
+    /// Steps taken with all runs together.
+    fn steps_of_all(&self) -> u64;
     /// Each run as it stands.
     fn snapshots(self: Box<Self>) -> Vec<Snapshot>;
 }
@@ -53,7 +56,7 @@ struct End {
 impl<T: Scalar> Lanes<T> {
     /// Runs at their start, `identities` naming them; `None` where samples do not fall on steps.
     pub fn new(identities: Vec<String>, system: Box<dyn StateSpace<T>>, settings: Settings) -> Option<Self> {
-        let every = settings.steps_on_grid()?;
+        let every = settings.steps_per_sample()?;
         let len = system.len();
         let zeros = |len| vec![T::zero(); len];
         let mut state = zeros(len);
@@ -71,6 +74,30 @@ impl<T: Scalar> Lanes<T> {
             time_s: 0.0,
             runs: identities.into_iter().map(run).collect(),
         })
+    }
+
+    /// Runs where these snapshots left them: those that have not ended at the same step. `None` where they are not, or all
+    /// have ended. The snapshots must be of runs of this system, with these settings.
+    pub fn resume(system: Box<dyn StateSpace<T>>, settings: Settings, snapshots: Vec<Snapshot>) -> Option<Self> {
+        let first = snapshots.iter().position(|snapshot| snapshot.outcome.is_none())?;
+        let (step, time_s) = (snapshots[first].step, snapshots[first].time_s);
+        if snapshots.iter().any(|snapshot| snapshot.outcome.is_none() && snapshot.step != step) {
+            return None;
+        }
+        let identities = snapshots.iter().map(|snapshot| snapshot.identity.clone()).collect();
+        let mut lanes = Self::new(identities, system, settings)?;
+        // Lanes that nobody hears any more compute what the first does.
+        let source =
+            |lane: usize| if snapshots.get(lane).is_some_and(|it| it.outcome.is_none()) { lane } else { first };
+        let state_of = |n: usize| T::from_lanes(|lane| snapshots[source(lane)].state[n]);
+        let plain: Vec<T> = (0..lanes.system.plain_len()).map(state_of).collect();
+        lanes.system.read_plain(&plain, &mut lanes.state);
+        (lanes.step, lanes.time_s) = (step, time_s);
+        for (run, Snapshot { step, time_s, state, rows, outcome, .. }) in lanes.runs.iter_mut().zip(snapshots) {
+            run.recorder.recording = Recording::from_rows(settings.columns, rows)?;
+            run.end = outcome.map(|outcome| End { outcome, step, time_s, state });
+        }
+        Some(lanes)
     }
 
     fn take_step(&mut self) {
@@ -161,6 +188,10 @@ impl<T: Scalar> Lockstep for Lanes<T> {
 
     fn step(&self) -> u64 {
         self.step
+    }
+
+    fn steps_of_all(&self) -> u64 {
+        self.runs.iter().map(|run| run.end.as_ref().map_or(self.step, |end| end.step)).sum()
     }
 
     fn snapshots(self: Box<Self>) -> Vec<Snapshot> {

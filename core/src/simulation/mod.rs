@@ -138,15 +138,10 @@ impl Settings {
     }
 
     /// Steps per sample, where steps are fixed and every sample falls on the start of one.
-    pub fn steps_on_grid(&self) -> Option<u64> {
-        self.steps_per_sample().filter(|_| self.method == Method::Rk4)
-    }
-
-    /// Steps per sample, where every sample falls on the start of a step.
-    fn steps_per_sample(&self) -> Option<u64> {
+    pub fn steps_per_sample(&self) -> Option<u64> {
         let steps = self.steps();
         let samples = self.samples as u64;
         let covers = (steps as f64 * self.step_s - self.duration_s).abs() <= 1e-9 * self.duration_s;
-        (covers && steps.is_multiple_of(samples)).then(|| steps / samples)
+        (self.method == Method::Rk4 && covers && steps.is_multiple_of(samples)).then(|| steps / samples)
     }
 }

@@ -36,6 +36,12 @@ impl<const N: usize> Fourier<f64, N> {
         }
     }
 
+    /// The paper's, for the arm's first three joints. Source: paper eq. (24).
+    pub fn paper() -> Self {
+        let sine_deg = [vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]];
+        Self::from_degrees(1.0, &[0.0, 90.0, -90.0], &sine_deg, &[])
+    }
+
     /// Whether both can be lanes of one trajectory: they turn at the same rate and have as many harmonics.
     pub fn runs_beside(&self, other: &Self) -> bool {
         self.frequency_rad_s == other.frequency_rad_s && self.harmonics.len() == other.harmonics.len()

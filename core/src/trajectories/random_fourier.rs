@@ -4,9 +4,10 @@
 //! fast as the others; then the whole is scaled. By Parseval `v_rms² = ½ Σ (kω)² A_k²` over a period, exactly.
 
 use super::Fourier;
+use crate::random::unit;
 use crate::scalar::Scalar;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
 use std::f64::consts::TAU;
 
 /// The stream of a seed's numbers that trajectories take.
@@ -22,15 +23,13 @@ pub fn random_fourier<const N: usize>(
 ) -> Fourier<f64, N> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(STREAM);
-    // The upper 53 bits: every multiple of 2⁻⁵³ in [0, 1).
-    let mut uniform = || (random.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
     let (mut sine_deg, mut cosine_deg) = (Vec::with_capacity(N), Vec::with_capacity(N));
     for _ in 0..N {
         let mut waves = Vec::with_capacity(harmonics);
         let mut square = 0.0;
         for k in 1..=harmonics {
-            let speed = 0.5 + 0.5 * uniform();
-            let (sin, cos) = Scalar::sin_cos(TAU * uniform());
+            let speed = 0.5 + 0.5 * unit(&mut random);
+            let (sin, cos) = Scalar::sin_cos(TAU * unit(&mut random));
             square += 0.5 * (speed * frequency_rad_s) * (speed * frequency_rad_s);
             waves.push((speed / k as f64 * cos, speed / k as f64 * sin));
         }

@@ -223,7 +223,7 @@ fn refusals_name_field_value_and_range() {
         ("slotine_li", r#""velocity":{"kind":"observer","k_d":[1,2]}"#, "/velocity/k_d", "2 numbers where 3"),
         ("slotine_li", r#""velocity":{"bandwidth_rad_s":9}"#, "/velocity", "missing field `kind`"),
         ("slotine_li", r#""adaptation":{"sigma":-1}"#, "/adaptation/sigma", "-1 is outside"),
-        ("slotine_li", r#""adaptation":{"weight":1}"#, "/adaptation/weight", "belongs to kind least_squares"),
+        ("slotine_li", r#""adaptation":{"weight":1}"#, "/adaptation/weight", "belongs to kinds least_squares, concurrent"),
         ("pd", r#""adaptation":{"sigma":1}"#, "/adaptation", "does not adapt"),
         ("pd", r#""effects":{"theta_hat_scale":[1]}"#, "/effects/theta_hat_scale", "does not adapt"),
         ("proposed", r#""effects":{"wind":1}"#, "/effects/wind", "unknown field `wind`"),

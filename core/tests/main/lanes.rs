@@ -2,8 +2,8 @@
 
 use adaptarm_core::lanes;
 use adaptarm_core::scenario::{
-    InitialVelocityDocument, MethodDocument, OutcomeKind, Run, Scenario, ScenarioDocument, Scheme, SchemeDocument,
-    SideBySide, TrajectoryDocument, TrajectoryKind, run_each,
+    Group, InitialVelocityDocument, MethodDocument, OutcomeKind, Run, Scenario, ScenarioDocument, Scheme,
+    SchemeDocument, SideBySide, TrajectoryDocument, TrajectoryKind, run_each,
 };
 use proptest::prelude::*;
 use std::ops::ControlFlow;
@@ -78,8 +78,8 @@ fn every_lane_has_the_bits_of_its_run_alone() {
     }
 }
 
-#[test]
-fn a_lane_that_diverges_leaves_the_others_alone() {
+/// Gains so high that the run diverges.
+fn wild() -> Scenario {
     let mut wild = short(Scheme::SlotineLi);
     wild.scheme = match scenario(wild.clone()).document().scheme.clone() {
         SchemeDocument::SlotineLi(Some(mut gains)) => {
@@ -88,7 +88,44 @@ fn a_lane_that_diverges_leaves_the_others_alone() {
         }
         _ => panic!("gains are filled in"),
     };
-    let (calm, wild) = (scenario(short(Scheme::SlotineLi)), scenario(wild));
+    scenario(wild)
+}
+
+#[test]
+fn groups_paused_at_any_step_give_the_same_bits() {
+    let adaptive = |n: usize| {
+        let mut document = varied(Scheme::SlotineLi, n).document().clone();
+        document.integration.method = MethodDocument::Dopri5;
+        scenario(document)
+    };
+    let lanes = (0..5).map(|n| varied(Scheme::SlotineLi, n)).collect();
+    let with_a_wild_one = vec![wild(), scenario(short(Scheme::SlotineLi)), wild(), scenario(short(Scheme::SlotineLi))];
+    let alone = vec![adaptive(0), adaptive(1)];
+    for scenarios in [lanes, with_a_wild_one, alone, vec![varied(Scheme::Proposed, 0)]] {
+        let members: Vec<_> = scenarios.iter().collect();
+        let expected: Vec<_> = scenarios.iter().map(Scenario::run).collect();
+        for pause in [1, 2, 7, 150, 299] {
+            let mut group = Group::start(&members);
+            let mut ended = group.advance(pause);
+            let mut pauses = 0;
+            while !ended {
+                let steps = group.steps();
+                group = Group::resume(&members, &group.snapshots()).unwrap();
+                assert_eq!(group.steps(), steps);
+                ended = group.advance(if pauses < 3 { pause } else { 100 });
+                pauses += 1;
+            }
+            assert_eq!(group.steps(), expected.iter().map(|run| run.report.steps).sum::<u64>());
+            assert!(group.finish() == expected, "pause after {pause} steps");
+        }
+    }
+    let (one, other) = (varied(Scheme::Proposed, 1), varied(Scheme::Proposed, 2));
+    assert!(Group::resume(&[&one, &other], &Group::start(&[&other, &one]).snapshots()).is_err());
+}
+
+#[test]
+fn a_lane_that_diverges_leaves_the_others_alone() {
+    let (calm, wild) = (scenario(short(Scheme::SlotineLi)), wild());
     let (calm_alone, wild_alone) = (calm.run(), wild.run());
     assert_eq!(wild_alone.report.outcome, OutcomeKind::Diverged);
     for &width in lanes::widths().iter().filter(|&&width| width > 1) {

@@ -2,12 +2,44 @@
 
 use super::jobs::{LABEL_CHARS, PRIORITIES};
 use crate::config::Limits as JobLimits;
+use adaptarm_core::experiments::{EXPERIMENT_LIMITS, ExperimentLimits};
 use adaptarm_core::robots::RobotData;
 use adaptarm_core::scenario::{
     GainInfo, LIMITS, Limits, Preset, ProjectionBounds, Scenario, ScenarioDocument, ScenarioError, Scheme,
 };
 use serde::Serialize;
 use serde_json::Value;
+
+/// An experiment to begin with.
+#[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
+pub struct ExampleView {
+    /// Identifier.
+    pub id: &'static str,
+    /// Its title.
+    pub title: String,
+    /// Its document, as the manual has it.
+    #[schema(value_type = crate::openapi::Experiment)]
+    pub experiment: Value,
+}
+
+/// The manual's experiments.
+const EXAMPLES: [(&str, &str); 5] = [
+    ("gains", include_str!("../../../docs/experiments/gains.json")),
+    ("sensitivity", include_str!("../../../docs/experiments/sensitivity.json")),
+    ("robustness", include_str!("../../../docs/experiments/robustness.json")),
+    ("schemes", include_str!("../../../docs/experiments/schemes.json")),
+    ("tuning", include_str!("../../../docs/experiments/tuning.json")),
+];
+
+/// The manual's experiments.
+pub fn examples() -> Result<Vec<ExampleView>, serde_json::Error> {
+    let view = |&(id, text): &(&'static str, &str)| {
+        let experiment: Value = serde_json::from_str(text)?;
+        let title = experiment["title"].as_str().unwrap_or(id).to_owned();
+        Ok(ExampleView { id, title, experiment })
+    };
+    EXAMPLES.iter().map(view).collect()
+}
 
 /// A preset.
 #[derive(Debug, Clone, Serialize, utoipa::ToSchema)]
@@ -125,6 +157,9 @@ pub struct LimitsView {
     /// On one scenario.
     #[schema(value_type = crate::openapi::ScenarioLimits)]
     pub scenario: Limits,
+    /// On one experiment.
+    #[schema(value_type = crate::openapi::ExperimentLimits)]
+    pub experiment: ExperimentLimits,
     /// On one job.
     pub job: JobLimitsView,
     /// On all jobs of one user together.
@@ -167,6 +202,7 @@ impl From<&JobLimits> for LimitsView {
     fn from(limits: &JobLimits) -> Self {
         Self {
             scenario: LIMITS,
+            experiment: EXPERIMENT_LIMITS,
             job: JobLimitsView {
                 scenarios: limits.scenarios_per_job,
                 steps: limits.steps_per_job,

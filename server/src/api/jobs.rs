@@ -1,9 +1,10 @@
 //! Jobs over the wire.
 
 use crate::config::Limits;
-use crate::document::brief;
-use crate::jobs::{Job, JobKind, JobState, Study, StudyError};
+use crate::document::{DocumentError, brief, parse};
+use crate::jobs::{ExperimentJob, Job, JobKind, JobState, NewWork, Study, StudyError};
 use crate::webhooks::{Policy, Webhook};
+use adaptarm_core::experiments::ExperimentDocument;
 use adaptarm_core::scenario::{Problem, Scenario, ScenarioDocument, ScenarioError};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -15,14 +16,44 @@ pub const LABEL_CHARS: usize = 200;
 /// Allowed priorities.
 pub const PRIORITIES: [i64; 2] = [-10, 10];
 
-/// A request for a job.
-#[derive(Debug, Clone, Deserialize, utoipa::ToSchema)]
+/// A request for a job, as the kind of it wants it.
+#[derive(Debug, Clone)]
+pub enum JobRequest {
+    /// Scenarios.
+    Study(Envelope<StudySpec>),
+    /// An experiment.
+    Experiment(Box<Envelope<ExperimentDocument>>),
+}
+
+/// The kind of a request, by which the rest is read.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct Head {
+    kind: JobKind,
+}
+
+/// A request whose `spec` is an `S`.
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct JobRequest {
+pub struct Envelope<S> {
+    kind: JobKind,
+    spec: S,
+    #[serde(default)]
+    priority: i64,
+    #[serde(default)]
+    label: Option<String>,
+    #[serde(default)]
+    webhook: Option<Webhook>,
+}
+
+/// The form of a request in the description of the API.
+#[derive(Debug, utoipa::ToSchema)]
+#[schema(as = JobRequest)]
+#[serde(deny_unknown_fields)]
+pub struct JobRequestForm {
     /// What to compute.
     pub kind: JobKind,
-    /// Of what; its form depends on the kind.
-    pub spec: StudySpec,
+    /// Of what: scenarios for a `study`, an experiment of this kind for any other.
+    pub spec: SpecForm,
     /// Among your own jobs, larger ones go first; -10 to 10.
     #[serde(default)]
     #[schema(minimum = -10, maximum = 10, default = 0)]
@@ -34,6 +65,17 @@ pub struct JobRequest {
     /// Whom to tell of every change of its state.
     #[serde(default)]
     pub webhook: Option<Webhook>,
+}
+
+/// What a request may be about.
+#[derive(Debug, utoipa::ToSchema)]
+#[serde(untagged)]
+#[schema(as = JobSpec)]
+pub enum SpecForm {
+    /// For a `study`.
+    Study(StudySpec),
+    /// For a `sweep`, `monte_carlo`, `compare` or `tuning`.
+    Experiment(crate::openapi::Experiment),
 }
 
 /// A study as its owner writes it.
@@ -63,7 +105,9 @@ pub(super) fn check_label(label: &str) -> Result<(), Problem> {
 #[derive(Debug)]
 pub struct CheckedRequest {
     /// What to compute.
-    pub study: Study,
+    pub work: CheckedWork,
+    /// Its kind.
+    pub kind: JobKind,
     /// Among its owner's jobs, larger ones go first.
     pub priority: i64,
     /// A name for people.
@@ -72,11 +116,33 @@ pub struct CheckedRequest {
     pub webhook: Option<Webhook>,
 }
 
+/// What a checked request asks for.
+#[derive(Debug)]
+pub enum CheckedWork {
+    /// Scenarios.
+    Study(Study),
+    /// An experiment.
+    Experiment(Box<ExperimentJob>),
+}
+
+impl CheckedWork {
+    /// As a new job holds it. Takes a while for many scenarios: not for an async task.
+    pub fn into_new_work(self) -> NewWork {
+        match self {
+            Self::Study(study) => NewWork::Study(study.into_new_scenarios()),
+            Self::Experiment(experiment) => NewWork::Experiment(Box::new(experiment.into_new_experiment())),
+        }
+    }
+}
+
 impl CheckedRequest {
     /// Hash of all that is asked for; how it was written makes no difference.
     pub fn hash(&self) -> String {
-        let scenarios: Vec<_> = self.study.scenarios().iter().map(Scenario::hash).collect();
-        let canonical = (JobKind::Study, self.priority, &self.label, &self.webhook, scenarios);
+        let content: Vec<_> = match &self.work {
+            CheckedWork::Study(study) => study.scenarios().iter().map(Scenario::hash).collect(),
+            CheckedWork::Experiment(experiment) => vec![experiment.hash()],
+        };
+        let canonical = (self.kind, self.priority, &self.label, &self.webhook, content);
         // Strings and numbers always become JSON.
         let text = serde_json::to_vec(&canonical).unwrap_or_default();
         blake3::hash(&text).to_hex().to_string()
@@ -84,9 +150,37 @@ impl CheckedRequest {
 }
 
 impl JobRequest {
+    /// Reads a request: first its kind, then everything in the form of that kind.
+    pub fn read(bytes: &[u8]) -> Result<Self, DocumentError> {
+        let Head { kind } = parse(bytes)?;
+        Ok(if kind.is_experiment() { Self::Experiment(Box::new(parse(bytes)?)) } else { Self::Study(parse(bytes)?) })
+    }
+
     /// Checks everything in it. Takes a while for many scenarios: not for an async task.
     pub fn check(self, limits: &Limits, receivers: &Policy) -> Result<CheckedRequest, StudyError> {
-        let Self { kind: JobKind::Study, spec, priority, label, webhook } = self;
+        match self {
+            Self::Study(request) => {
+                let work =
+                    |spec: StudySpec, _| Ok(CheckedWork::Study(Study::new(spec.scenarios, "/spec/scenarios", limits)?));
+                request.check(receivers, work)
+            }
+            Self::Experiment(request) => {
+                let work = |spec, kind| {
+                    Ok(CheckedWork::Experiment(Box::new(ExperimentJob::new(spec, kind, "/spec", limits)?)))
+                };
+                request.check(receivers, work)
+            }
+        }
+    }
+}
+
+impl<S> Envelope<S> {
+    fn check(
+        self,
+        receivers: &Policy,
+        work: impl FnOnce(S, JobKind) -> Result<CheckedWork, StudyError>,
+    ) -> Result<CheckedRequest, StudyError> {
+        let Self { kind, spec, priority, label, webhook } = self;
         if let Some(label) = &label {
             check_label(label).map_err(|problem| ScenarioError::new("/label", problem))?;
         }
@@ -98,8 +192,7 @@ impl JobRequest {
         if let Some(webhook) = &webhook {
             webhook.check("/webhook", receivers)?;
         }
-        let study = Study::new(spec.scenarios, "/spec/scenarios", limits)?;
-        Ok(CheckedRequest { study, priority, label, webhook })
+        Ok(CheckedRequest { work: work(spec, kind)?, kind, priority, label, webhook })
     }
 }
 
@@ -134,7 +227,7 @@ pub struct JobView {
     pub attempts: i64,
     /// Whether it was answered from results of earlier jobs, without computing anything.
     pub cached: bool,
-    /// How many scenarios it has.
+    /// How many scenarios it has: of an experiment its runs, of a tuning the candidates that it may try.
     pub scenarios: i64,
     /// How many of them have a result.
     pub scenarios_done: i64,
@@ -172,8 +265,9 @@ impl From<Job> for JobView {
         let (succeeded, ended) = (job.state == JobState::Succeeded, job.state.is_final());
         let links = JobLinks {
             events: format!("{this}/events"),
-            result: ended.then(|| format!("{this}/result")),
-            series: succeeded.then(|| format!("{this}/result/series?scenario=0")),
+            // An experiment says what it knows at any time.
+            result: (ended || job.kind.is_experiment()).then(|| format!("{this}/result")),
+            series: (succeeded && !job.kind.is_experiment()).then(|| format!("{this}/result/series?scenario=0")),
             cancel: (!ended).then(|| format!("{this}/cancel")),
             this,
         };

@@ -1,11 +1,13 @@
 //! The command line: what can be asked, and what the exit code says about the answer.
 
 mod config;
+mod exercise;
 mod experiment;
 mod gc;
 mod openapi;
 mod options;
 mod presets;
+mod receipt;
 mod run;
 mod samples;
 mod serve;
@@ -53,6 +55,10 @@ enum Command {
     Replicate(ReplicateArgs),
     /// Make the runs of an experiment: a sweep, a Monte Carlo study, a comparison of schemes, or a tuning.
     Experiment(experiment::Arguments),
+    /// List, check, calibrate and grade exercises.
+    Exercise(exercise::Arguments),
+    /// Check a signed receipt for a grade, and make its runs again.
+    Receipt(receipt::Arguments),
     /// Serve the laboratory's page and its HTTP API.
     Serve(serve::Arguments),
     /// Compute for servers that share a PostgreSQL database.
@@ -78,6 +84,8 @@ pub fn main() -> ExitCode {
             if error.is::<BadSettings>() { Failure::input(message) } else { Failure::system(message) }
         }),
         Command::Experiment(arguments) => experiment::run(&arguments),
+        Command::Exercise(arguments) => exercise::run(&arguments),
+        Command::Receipt(arguments) => receipt::run(&arguments),
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Worker(arguments) => worker::run(&arguments),
         Command::Gc(arguments) => gc::run(&arguments),

@@ -3,9 +3,11 @@
 use super::{Failure, presets, samples};
 use crate::document::{FileError, parse_scenario, read_bounded, read_file};
 use crate::stdout::print;
-use adaptarm_core::scenario::{Run, Scenario};
+use adaptarm_core::diagnostics::Diagnostics;
+use adaptarm_core::scenario::{Report, Run, Scenario};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -24,6 +26,7 @@ Examples:
   adaptarm run --preset slotine_li
   adaptarm run my.json --csv my.csv --compact >> reports.jsonl
   adaptarm run my.json --follow way.csv
+  adaptarm run my.json --diagnostics | jq .diagnostics.violations
   adaptarm presets --show proposed | sed 's/\"duration_s\": 12.0/\"duration_s\": 60.0/' | adaptarm run -
 
 A scenario may be as short as {\"format\": \"adaptarm.scenario/1\", \"scheme\": {\"kind\": \"proposed\"}}:
@@ -51,9 +54,22 @@ pub(super) struct Arguments {
     /// Also write the samples to this file, as comma-separated values.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
+    /// Add `diagnostics` to the report: excitation and what cannot be identified, the Lyapunov function, violated assumptions,
+    /// parameter error, bounds, energy, chatter.
+    #[arg(long)]
+    diagnostics: bool,
     /// Print the report on one line.
     #[arg(long)]
     compact: bool,
+}
+
+/// What is printed: the report, and what else was asked for.
+#[derive(Serialize)]
+struct Told {
+    #[serde(flatten)]
+    report: Report,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    diagnostics: Option<Diagnostics>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -78,7 +94,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(table) = table {
         table.write(&recording.to_csv())?;
     }
-    let text = if arguments.compact { serde_json::to_string(&report) } else { serde_json::to_string_pretty(&report) };
+    let diagnostics = arguments.diagnostics.then(|| scenario.diagnose(&recording).0);
+    let told = Told { report, diagnostics };
+    let text = if arguments.compact { serde_json::to_string(&told) } else { serde_json::to_string_pretty(&told) };
     Ok(print(&(text.map_err(Failure::system)? + "\n"))?)
 }
 

@@ -1,45 +1,137 @@
-//! What an experiment leaves in its folder: the experiment with everything filled in, `summary.json`, a row per run as CSV and
-//! Parquet; of a tuning, the best scenario and its generations.
+//! What an experiment leaves, on disk or over HTTP: the experiment with everything filled in, `summary.json`, a row per run as
+//! CSV and Parquet; of a tuning, the best scenario, its generations and its Pareto front.
 
+use super::Picture;
 use super::checkpoint::replace;
+use crate::figures::PictureFormat;
 use crate::series::parquet;
-use adaptarm_core::experiments::{Experiment, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
+use adaptarm_core::experiments::{Experiment, Front, Results, Row, RowOutcome, Summary, Tuning, TuningSummary};
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Of a sweep, a Monte Carlo study or a comparison.
-pub(super) fn write(experiment: &Experiment, results: &Results, summary: &Summary, folder: &Path) -> Result<()> {
-    save_json(&folder.join("experiment.json"), experiment.document())?;
-    save_json(&folder.join("summary.json"), summary)?;
-    replace(&folder.join("runs.csv"), csv(experiment, results).as_bytes())?;
-    replace(&folder.join("runs.parquet"), &table(experiment, results)?)
+/// What is known of an experiment, at its end or on the way there.
+#[derive(Debug)]
+pub enum Found {
+    /// Of a sweep, a Monte Carlo study or a comparison: the rows and what they say.
+    Rows(Results, Box<Summary>),
+    /// Of a tuning: its search.
+    Search(Box<Tuning>),
 }
 
-/// Of a tuning.
-pub(super) fn write_tuning(
-    experiment: &Experiment,
-    tuning: &Tuning,
-    summary: &TuningSummary,
-    folder: &Path,
-) -> Result<()> {
-    save_json(&folder.join("experiment.json"), experiment.document())?;
-    save_json(&folder.join("summary.json"), summary)?;
-    if let Some(best) = tuning.best_scenario(experiment) {
-        save_json(&folder.join("best.json"), best.document())?;
+/// A file of an experiment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum File {
+    /// The experiment with everything filled in.
+    Experiment,
+    /// What its rows say.
+    Summary,
+    /// A row per run, as text.
+    RunsCsv,
+    /// A row per run, as Parquet.
+    RunsParquet,
+    /// The best scenario of a tuning.
+    Best,
+    /// A tuning's generations, as text.
+    Generations,
+    /// A tuning's Pareto front, as text.
+    Front,
+}
+
+impl File {
+    /// Those that an experiment has.
+    pub fn of(experiment: &Experiment) -> &'static [Self] {
+        if experiment.runs().is_some() {
+            &[Self::Experiment, Self::Summary, Self::RunsCsv, Self::RunsParquet]
+        } else {
+            &[Self::Experiment, Self::Summary, Self::Best, Self::Generations, Self::Front]
+        }
     }
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Experiment => "experiment.json",
+            Self::Summary => "summary.json",
+            Self::RunsCsv => "runs.csv",
+            Self::RunsParquet => "runs.parquet",
+            Self::Best => "best.json",
+            Self::Generations => "generations.csv",
+            Self::Front => "front.csv",
+        }
+    }
+
+    /// Its media type.
+    pub const fn media_type(self) -> &'static str {
+        match self {
+            Self::Experiment | Self::Summary | Self::Best => "application/json",
+            Self::RunsCsv | Self::Generations | Self::Front => "text/csv; charset=utf-8; header=present",
+            Self::RunsParquet => "application/vnd.apache.parquet",
+        }
+    }
+
+    /// Its bytes; nothing where there is nothing to write. Takes up to a second where there are very many rows.
+    pub fn bytes(self, experiment: &Experiment, found: &Found) -> Result<Option<Vec<u8>>> {
+        Ok(Some(match (self, found) {
+            (Self::Experiment, _) => json(experiment.document())?,
+            (Self::Summary, Found::Rows(_, summary)) => json(summary)?,
+            (Self::Summary, Found::Search(tuning)) => json(&tuning.summary(experiment))?,
+            (Self::RunsCsv, Found::Rows(results, _)) => csv(experiment, results).into_bytes(),
+            (Self::RunsParquet, Found::Rows(results, _)) => table(experiment, results)?,
+            (Self::Best, Found::Search(tuning)) => match tuning.best_scenario(experiment) {
+                Some(best) => json(best.document())?,
+                None => return Ok(None),
+            },
+            (Self::Generations, Found::Search(tuning)) => generations(&tuning.summary(experiment)).into_bytes(),
+            (Self::Front, Found::Search(tuning)) => match &tuning.summary(experiment).front {
+                Some(front) => front_table(front, &tuning.summary(experiment).variables).into_bytes(),
+                None => return Ok(None),
+            },
+            (Self::RunsCsv | Self::RunsParquet, Found::Search(_))
+            | (Self::Best | Self::Generations | Self::Front, Found::Rows(..)) => {
+                return Ok(None);
+            }
+        }))
+    }
+}
+
+/// Writes all files of an experiment into a folder, and its figures as SVG.
+pub(super) fn write(experiment: &Experiment, found: &Found, folder: &Path) -> Result<()> {
+    for file in File::of(experiment) {
+        if let Some(bytes) = file.bytes(experiment, found)? {
+            replace(&folder.join(file.name()), &bytes)?;
+        }
+    }
+    for picture in Picture::of(experiment).filter(|picture| picture.format == PictureFormat::Svg) {
+        replace(&folder.join(picture.name()), &picture.bytes(experiment, found, None)?)?;
+    }
+    Ok(())
+}
+
+fn json(document: &impl Serialize) -> Result<Vec<u8>> {
+    Ok((serde_json::to_string_pretty(document)? + "\n").into_bytes())
+}
+
+fn generations(summary: &TuningSummary) -> String {
     let mut text = "generation,restart,population,best,sigma\n".to_owned();
     for (n, generation) in summary.history.iter().enumerate() {
         let (restart, population) = (generation.restart, generation.population);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{},{restart},{population},{:?},{:?}", n + 1, generation.best, generation.sigma);
     }
-    replace(&folder.join("generations.csv"), text.as_bytes())
+    text
 }
 
-fn save_json(path: &Path, document: &impl Serialize) -> Result<()> {
-    replace(path, (serde_json::to_string_pretty(document)? + "\n").as_bytes())
+/// A row per candidate that no other beats in every objective.
+fn front_table(front: &Front, variables: &[String]) -> String {
+    let names = front.objectives.iter().chain(variables).map(|name| cell(name));
+    let mut text = names.collect::<Vec<_>>().join(",") + "\n";
+    for candidate in &front.candidates {
+        let numbers = candidate.objectives.iter().chain(&candidate.values).map(|number| format!("{number:?}"));
+        text += &(numbers.collect::<Vec<_>>().join(",") + "\n");
+    }
+    text
 }
 
 /// A row per run; an empty cell where there is no number.

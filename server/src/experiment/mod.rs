@@ -5,8 +5,11 @@
 
 mod checkpoint;
 mod files;
+mod pictures;
 
 pub use checkpoint::CheckpointError;
+pub use files::{File, Found};
+pub use pictures::Picture;
 
 use adaptarm_core::experiments::{Experiment, PlannedRun, Results, Row, Summary, Tuning, TuningError, TuningSummary};
 use anyhow::{Context, Result};
@@ -109,11 +112,11 @@ fn lay_out(
     })?;
     bar.finish_and_clear();
     checkpoint.save(&State::Rows(results.rows().cloned().collect()))?;
-    let summary = Summary::of(experiment, &results);
+    let summary = Box::new(Summary::of(experiment, &results));
     if let Some(folder) = folder {
-        files::write(experiment, &results, &summary, folder)?;
+        files::write(experiment, &Found::Rows(results, summary.clone()), folder)?;
     }
-    Ok(Outcome::Summary(Box::new(summary)))
+    Ok(Outcome::Summary(summary))
 }
 
 /// Generation after generation.
@@ -147,7 +150,7 @@ fn search(
     checkpoint.save(&State::Tuning(Box::new(tuning.clone())))?;
     let summary = tuning.summary(experiment);
     if let Some(folder) = folder {
-        files::write_tuning(experiment, &tuning, &summary, folder)?;
+        files::write(experiment, &Found::Search(Box::new(tuning)), folder)?;
     }
     Ok(Outcome::Tuning(Box::new(summary)))
 }

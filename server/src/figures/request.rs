@@ -8,6 +8,7 @@ use crate::document::brief;
 use crate::download::{Disposition, Download};
 use crate::error::Problem;
 use adaptarm_core::decomposition::TorqueParts;
+use adaptarm_core::diagnostics::Trace;
 use adaptarm_core::figures::{Figure, PlottedRun};
 use adaptarm_core::recording::Recording;
 use adaptarm_core::robots::{RobotData, robot};
@@ -90,6 +91,13 @@ fn file_name(figure: Figure, format: PictureFormat) -> String {
     format!("{}.{}", figure.id(), format.id())
 }
 
+/// What some figures show beside the samples.
+#[derive(Default)]
+struct Derived {
+    parts: Option<TorqueParts>,
+    trace: Option<Trace>,
+}
+
 /// A request for a figure of one run.
 #[derive(Debug, Clone)]
 pub struct FigureRequest {
@@ -126,12 +134,13 @@ impl FigureRequest {
     }
 
     /// The picture's bytes; `document` is the run's scenario as JSON. Takes a processor a millisecond as SVG and a tenth of a
-    /// second as PNG.
+    /// second as PNG; the curves of the diagnostics take another tenth.
     pub fn draw(&self, report: &Report, document: &str, recording: &Recording) -> Result<Vec<u8>, FigureError> {
-        let parts = self.torque_parts(document, recording)?;
+        let Derived { parts, trace } = self.derived(document, recording)?;
         let completed = report.outcome == OutcomeKind::Completed;
         let run = PlottedRun {
             parts: parts.as_ref(),
+            trace: trace.as_ref(),
             ..PlottedRun::new(self.scheme, recording, completed, &report.theta_true)
         };
         let svg = figure_svg(self.figure, self.robot, &[run])?;
@@ -141,14 +150,18 @@ impl FigureRequest {
         }
     }
 
-    /// The torques, split, for the one figure that shows them.
-    fn torque_parts(&self, document: &str, recording: &Recording) -> Result<Option<TorqueParts>, FigureError> {
-        if self.figure != Figure::TorqueParts {
-            return Ok(None);
+    /// The torques, split, and the curves of the diagnostics, for the figures that show them.
+    fn derived(&self, document: &str, recording: &Recording) -> Result<Derived, FigureError> {
+        let (wants_parts, wants_trace) = (self.figure == Figure::TorqueParts, self.figure.shows_diagnostics());
+        if !(wants_parts || wants_trace) {
+            return Ok(Derived::default());
         }
         let scenario = Scenario::read(&mut serde_json::Deserializer::from_str(document))
             .map_err(|error| FigureError::Scenario(error.to_string()))?;
-        Ok(Some(scenario.torque_parts(recording)))
+        Ok(Derived {
+            parts: wants_parts.then(|| scenario.torque_parts(recording)),
+            trace: wants_trace.then(|| scenario.diagnose(recording).1),
+        })
     }
 
     /// The picture, drawn beside the async threads.
@@ -224,7 +237,8 @@ mod tests {
                            estimates_3.png, torques.svg, torques.png, positions.svg, positions.png, voltages.svg, \
                            voltages.png, sliding_variables.svg, sliding_variables.png, phase_plane.svg, \
                            phase_plane.png, parameter_error_norm.svg, parameter_error_norm.png, estimates.svg, \
-                           estimates.png, torque_parts.svg, torque_parts.png";
+                           estimates.png, torque_parts.svg, torque_parts.png, excitation.svg, excitation.png, lyapunov.svg, lyapunov.png, \
+                           parameter_error_parts.svg, parameter_error_parts.png, energy.svg, energy.png";
             assert_eq!(problem.status, 404);
             assert_eq!(problem.detail, format!("there is no figure {name:?}; of this run there are: {allowed}"));
         }

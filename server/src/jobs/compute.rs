@@ -1,9 +1,9 @@
-//! Computing one scenario on a thread of the pool, able to pause between two slices.
+//! Computing scenarios together on a thread of the pool, in lanes where they can be, able to pause between two slices.
 
-use crate::document::parse_scenario;
 use crate::metrics::FailureReason;
-use crate::results::{Checkpoint, Encoded};
-use adaptarm_core::scenario::Report;
+use crate::results::Checkpoint;
+use adaptarm_core::experiments::Row;
+use adaptarm_core::scenario::{Group, Run, Scenario};
 use adaptarm_core::simulation::Snapshot;
 use bytes::Bytes;
 use std::any::Any;
@@ -17,13 +17,15 @@ const SLICE_STEPS: u64 = 2_000;
 #[derive(Debug)]
 pub(super) struct Control {
     pause: AtomicBool,
+    before: u64,
     steps: AtomicU64,
 }
 
 impl Control {
-    /// Of a computation that starts at this step. Who asks before a thread is free must not hear that work is lost.
-    pub(super) fn starting_at(step: u64) -> Self {
-        Self { pause: AtomicBool::new(false), steps: AtomicU64::new(step) }
+    /// Of a computation behind so many steps that are done, which itself starts at this step. Who asks before a thread is free
+    /// must not hear that work is lost.
+    pub(super) fn starting_at(before: u64, step: u64) -> Self {
+        Self { pause: AtomicBool::new(false), before, steps: AtomicU64::new(step) }
     }
 
     /// Makes the computation pause within a slice.
@@ -33,78 +35,102 @@ impl Control {
 
     /// Steps taken so far.
     pub(super) fn steps(&self) -> u64 {
-        self.steps.load(Ordering::Relaxed)
+        self.before + self.steps.load(Ordering::Relaxed)
     }
 }
 
-/// A scenario that is done.
+/// Why a computation failed: another try would meet the same.
+pub type Failure = (FailureReason, String);
+
+/// Scenarios that are computed together.
 #[derive(Debug)]
-pub(super) struct Finished {
-    /// The report.
-    pub(super) report: Report,
-    /// The samples.
-    pub(super) encoded: Encoded,
-    /// Time of the arm's movement, s.
-    pub(super) simulated_s: f64,
+pub(super) struct Members {
+    /// Numbers of the scenarios in their job, or of the runs in their experiment.
+    pub(super) numbers: Vec<i64>,
+    /// The scenarios.
+    pub(super) scenarios: Vec<Scenario>,
+    /// Rows of an experiment's part that are done already.
+    pub(super) rows: Vec<Row>,
+    /// Steps that those took.
+    pub(super) steps: u64,
 }
 
 /// How a stretch of computing ended.
 #[derive(Debug)]
-pub(super) enum Stretch {
-    /// With the scenario done.
-    Finished(Box<Finished>),
-    /// On request: how far it came, as bytes and as it is.
-    Paused(Bytes, Box<Snapshot>),
+pub(super) enum Stretch<T> {
+    /// With all scenarios done: what is kept of each.
+    Finished(Vec<T>),
+    /// On request: how far they came, as bytes and as it is.
+    Paused(Bytes, Vec<Snapshot>),
     /// With an error that another try would meet again.
     Failed(FailureReason, String),
 }
 
-/// Computes scenario `n` of a job from where it was left, until its end or until it is told to pause.
-pub(super) fn compute(n: i64, document: &str, from: Option<Snapshot>, control: &Control) -> Stretch {
-    match catch_unwind(AssertUnwindSafe(|| try_compute(n, document, from, control))) {
+/// Computes scenarios from where they were left (from the start without snapshots) until their end or until told to pause;
+/// `keep` makes of each run what is kept.
+pub(super) fn compute<T>(
+    members: &Members,
+    from: &[Snapshot],
+    control: &Control,
+    keep: impl Fn(i64, &Scenario, Run) -> Result<T, Failure>,
+) -> Stretch<T> {
+    match catch_unwind(AssertUnwindSafe(|| try_compute(members, from, control, keep))) {
         Ok(Ok(stretch)) => stretch,
-        Ok(Err((kind, reason))) => Stretch::Failed(kind, format!("scenario {n}: {reason}")),
+        Ok(Err((kind, reason))) => Stretch::Failed(kind, format!("{}: {reason}", name_of(members))),
         Err(panic) => {
-            let reason = format!("scenario {n} made the simulation fail: {}", words(&*panic));
+            let reason = format!("{} made the simulation fail: {}", name_of(members), words(&*panic));
             Stretch::Failed(FailureReason::Panicked, reason)
         }
     }
 }
 
-fn try_compute(
-    n: i64,
-    document: &str,
-    from: Option<Snapshot>,
-    control: &Control,
-) -> Result<Stretch, (FailureReason, String)> {
-    let scenario = parse_scenario(document.as_bytes()).map_err(|error| (FailureReason::Document, error.to_string()))?;
-    let mut simulation = match from.map(|snapshot| scenario.resume(snapshot)) {
-        None => scenario.start(),
-        Some(Ok(simulation)) => simulation,
-        Some(Err(error)) => {
-            // Another version of the core made it, mostly: only time is lost.
-            tracing::warn!("scenario {n} begins anew: {error}");
-            scenario.start()
-        }
-    };
-    control.steps.store(simulation.steps(), Ordering::Relaxed);
-    while !simulation.advance(SLICE_STEPS) {
-        control.steps.store(simulation.steps(), Ordering::Relaxed);
-        if control.pause.load(Ordering::Relaxed) {
-            let checkpoint = Checkpoint { n, snapshot: simulation.snapshot() };
-            let bytes = checkpoint.encode().map_err(|error| (FailureReason::Storage, error.to_string()))?;
-            return Ok(Stretch::Paused(bytes, Box::new(checkpoint.snapshot)));
+/// What messages call them.
+fn name_of(members: &Members) -> String {
+    match &members.numbers[..] {
+        [number] => format!("scenario {number}"),
+        numbers => {
+            format!("one of the scenarios {}", numbers.iter().map(i64::to_string).collect::<Vec<_>>().join(", "))
         }
     }
-    let simulated_s = simulation.time_s();
-    let run = scenario.finish(simulation);
-    let encoded =
-        Encoded::new(&run.report, &run.recording).map_err(|error| (FailureReason::Storage, error.to_string()))?;
-    Ok(Stretch::Finished(Box::new(Finished { report: run.report, encoded, simulated_s })))
+}
+
+fn try_compute<T>(
+    members: &Members,
+    from: &[Snapshot],
+    control: &Control,
+    keep: impl Fn(i64, &Scenario, Run) -> Result<T, Failure>,
+) -> Result<Stretch<T>, Failure> {
+    let scenarios: Vec<_> = members.scenarios.iter().collect();
+    let mut group = match (!from.is_empty()).then(|| Group::resume(&scenarios, from)) {
+        None => Group::start(&scenarios),
+        Some(Ok(group)) => group,
+        Some(Err(error)) => {
+            // Another version of the core made it, mostly: only time is lost.
+            tracing::warn!("{} begins anew: {error}", name_of(members));
+            Group::start(&scenarios)
+        }
+    };
+    control.steps.store(group.steps(), Ordering::Relaxed);
+    while !group.advance(SLICE_STEPS) {
+        control.steps.store(group.steps(), Ordering::Relaxed);
+        if control.pause.load(Ordering::Relaxed) {
+            let checkpoint = Checkpoint {
+                numbers: members.numbers.clone(),
+                snapshots: group.snapshots(),
+                rows: members.rows.clone(),
+                steps: members.steps,
+            };
+            let bytes = checkpoint.encode().map_err(|error| (FailureReason::Storage, error.to_string()))?;
+            return Ok(Stretch::Paused(bytes, checkpoint.snapshots));
+        }
+    }
+    let runs = members.numbers.iter().zip(&members.scenarios).zip(group.finish());
+    let kept = runs.map(|((number, scenario), run)| keep(*number, scenario, run));
+    Ok(Stretch::Finished(kept.collect::<Result<_, _>>()?))
 }
 
 /// What a panic said.
-fn words(panic: &(dyn Any + Send)) -> &str {
+pub(super) fn words(panic: &(dyn Any + Send)) -> &str {
     panic
         .downcast_ref::<String>()
         .map(String::as_str)

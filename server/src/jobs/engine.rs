@@ -3,6 +3,7 @@
 //! Computation never happens inside a future. A shard that may have killed its process before is tried alone, so that it
 //! can take nothing else with it.
 
+use super::experiment::Opened;
 use super::queue::{Handler, TICKETS};
 use super::shard;
 use super::shared::{EngineSettings, Shared};
@@ -66,6 +67,7 @@ impl Engine {
             company: RwLock::default(),
             suspects_waiting: AtomicUsize::new(0),
             stopping: watch::Sender::new(false),
+            experiments: Opened::default(),
             abort_label: std::env::var(ABORT_LABEL).ok().filter(|label| !label.is_empty()),
         };
         Ok(Self { shared: Arc::new(shared) })

@@ -7,6 +7,8 @@
 mod claim;
 mod compute;
 mod engine;
+mod experiment;
+mod new_job;
 mod plan;
 mod queue;
 mod shard;
@@ -18,13 +20,15 @@ mod study;
 mod tests;
 mod upkeep;
 
-pub use claim::{Claim, Delivered, Order, StoredResult, Tick};
+pub use claim::{Claim, Delivered, Folded, MadeRuns, NextStep, Order, Part, PartWork, StoredResult, Task, Tick};
 pub use engine::Engine;
+pub use experiment::{ExperimentJob, read_experiment, read_rows, read_search};
+pub use new_job::{NewExperiment, NewJob, NewScenario, NewWork};
 pub use queue::{Handler, Queue, WEBHOOKS};
 pub use shared::EngineSettings;
 pub use sql::connect;
 pub use store::{
-    Event, EventKind, Filter, JobStore, NewJob, NewScenario, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
+    Event, EventKind, ExperimentRow, Filter, JobStore, Pulse, ScenarioRow, StoreError, StoredToken, Submitted,
 };
 pub use study::{Study, StudyError};
 pub use upkeep::{Forgotten, collect_garbage};
@@ -39,17 +43,34 @@ use uuid::Uuid;
 pub enum JobKind {
     /// One or more scenarios, each simulated to its end.
     Study,
+    /// An experiment in which fields are tried systematically.
+    Sweep,
+    /// An experiment in which fields are random.
+    MonteCarlo,
+    /// An experiment in which schemes meet conditions.
+    Compare,
+    /// An experiment that searches the best values.
+    Tuning,
 }
 
 impl JobKind {
     /// Every kind.
-    pub const ALL: [Self; 1] = [Self::Study];
+    pub const ALL: [Self; 5] = [Self::Study, Self::Sweep, Self::MonteCarlo, Self::Compare, Self::Tuning];
 
     /// Its name over HTTP and in the database.
     pub fn id(self) -> &'static str {
         match self {
             Self::Study => "study",
+            Self::Sweep => "sweep",
+            Self::MonteCarlo => "monte_carlo",
+            Self::Compare => "compare",
+            Self::Tuning => "tuning",
         }
+    }
+
+    /// Whether it is an experiment.
+    pub fn is_experiment(self) -> bool {
+        self != Self::Study
     }
 
     /// The kind of this name.
@@ -127,7 +148,7 @@ pub struct Job {
     pub started_at: Option<Timestamp>,
     /// When it reached a final state.
     pub finished_at: Option<Timestamp>,
-    /// How many scenarios it has.
+    /// How many scenarios it has: of an experiment its runs, of a tuning the candidates that it may try.
     pub scenarios: i64,
     /// How many of them have a result.
     pub scenarios_done: i64,
@@ -143,7 +164,11 @@ impl Job {
         if self.state == JobState::Succeeded {
             return 1.0;
         }
-        // An adaptive method may take more steps than were planned.
-        (self.steps_done as f64 / self.steps_total.max(1) as f64).clamp(0.0, 0.999)
+        // How many steps a tuning will take, nobody knows; an adaptive method may take more than were planned.
+        let (done, total) = match self.kind {
+            JobKind::Tuning => (self.scenarios_done, self.scenarios),
+            _ => (self.steps_done, self.steps_total),
+        };
+        (done as f64 / total.max(1) as f64).clamp(0.0, 0.999)
     }
 }

@@ -1,5 +1,6 @@
 //! What all work in one process shares: the stores, the pool, and who waits for whom.
 
+use super::experiment::Opened;
 use super::{Claim, JobStore, Queue};
 use crate::config::{Config, Limits};
 use crate::results::Results;
@@ -56,6 +57,7 @@ pub(super) struct Shared {
     pub(super) suspects_waiting: AtomicUsize,
     pub(super) stopping: watch::Sender<bool>,
     pub(super) abort_label: Option<String>,
+    pub(super) experiments: Opened,
 }
 
 impl Shared {

@@ -3,11 +3,10 @@
 //! Every write of a worker is fenced: it names its claim, and a claim that was overtaken (its lease ran out, the job was
 //! canceled) changes nothing and is told to stop.
 
-use super::claim::{Claim, Delivered, Order, StoredResult, Tick};
-use super::{Job, JobKind, JobState};
+use super::claim::{Claim, Delivered, Folded, MadeRuns, Order, StoredResult, Tick};
+use super::{Job, JobKind, JobState, NewJob};
 use crate::config::Limits;
-use crate::webhooks::Webhook;
-use adaptarm_core::scenario::{Report, Scenario};
+use adaptarm_core::scenario::Report;
 use async_trait::async_trait;
 use jiff::Timestamp;
 use std::time::Duration;
@@ -49,66 +48,6 @@ pub enum StoreError {
     },
 }
 
-/// A scenario of a new job.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NewScenario {
-    /// Hash of its canonical form.
-    pub hash: String,
-    /// Its canonical form as JSON.
-    pub document: String,
-    /// Integration steps.
-    pub steps: u64,
-    /// Expected computing time, µs.
-    pub cost_us: f64,
-}
-
-impl NewScenario {
-    /// A scenario as a job holds it.
-    pub fn of(scenario: &Scenario) -> Self {
-        Self {
-            hash: scenario.hash(),
-            // Strings, numbers and lists always become JSON.
-            document: serde_json::to_string(scenario.document()).unwrap_or_default(),
-            steps: scenario.settings().steps(),
-            cost_us: super::plan::cost_us(scenario),
-        }
-    }
-}
-
-/// A job that is asked for.
-#[derive(Debug)]
-pub struct NewJob {
-    /// Whose.
-    pub owner: String,
-    /// What it computes.
-    pub kind: JobKind,
-    /// Its owner's name for it.
-    pub label: Option<String>,
-    /// Among its owner's jobs, larger ones go first.
-    pub priority: i64,
-    /// Whom to tell.
-    pub webhook: Option<Webhook>,
-    /// The request's own name, and a hash of all it asks for.
-    pub idempotency: Option<(String, String)>,
-    /// What to compute.
-    pub scenarios: Vec<NewScenario>,
-}
-
-impl NewJob {
-    /// A study of these scenarios, with nothing else said about it.
-    pub fn study(owner: &str, scenarios: Vec<NewScenario>) -> Self {
-        Self {
-            owner: owner.to_owned(),
-            kind: JobKind::Study,
-            label: None,
-            priority: 0,
-            webhook: None,
-            idempotency: None,
-            scenarios,
-        }
-    }
-}
-
 /// What became of a request for a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Submitted {
@@ -146,6 +85,25 @@ pub struct ScenarioRow {
     pub checksum: Option<String>,
 }
 
+/// An experiment as the tables hold it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExperimentRow {
+    /// Its hash.
+    pub hash: String,
+    /// Its document.
+    pub document: String,
+    /// Version of the core that began it.
+    pub core_version: String,
+    /// Step that it is in.
+    pub step: i64,
+    /// Rows of this step.
+    pub done: i64,
+    /// The search of a tuning.
+    pub state: Option<Vec<u8>>,
+    /// The newest summary, as JSON.
+    pub summary: Option<String>,
+}
+
 /// What an event tells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventKind {
@@ -153,6 +111,8 @@ pub enum EventKind {
     State,
     /// A scenario has its result: the data are its number and a digest of the report.
     Summary,
+    /// An experiment was summed up: the data are the numbers that matter most. A later one takes its place.
+    Partial,
 }
 
 impl EventKind {
@@ -161,12 +121,13 @@ impl EventKind {
         match self {
             Self::State => "state",
             Self::Summary => "summary",
+            Self::Partial => "partial",
         }
     }
 
     /// The kind of this name.
     pub fn from_id(id: &str) -> Option<Self> {
-        [Self::State, Self::Summary].into_iter().find(|kind| kind.id() == id)
+        [Self::State, Self::Summary, Self::Partial].into_iter().find(|kind| kind.id() == id)
     }
 }
 
@@ -281,6 +242,24 @@ pub trait JobStore: Send + Sync + 'static {
         counted: i64,
         computed: Duration,
     ) -> Result<Delivered, StoreError>;
+
+    /// Keeps the rows of an experiment's part; the last ones of a step have it folded.
+    async fn deliver_runs(
+        &self,
+        claim: &Claim,
+        made: &MadeRuns,
+        counted: i64,
+        computed: Duration,
+    ) -> Result<Delivered, StoreError>;
+
+    /// Keeps what the rows of a step came to, and begins what comes next or ends the job.
+    async fn deliver_fold(&self, claim: &Claim, folded: &Folded, computed: Duration) -> Result<Delivered, StoreError>;
+
+    /// The experiment of a job.
+    async fn experiment(&self, id: Uuid) -> Result<Option<ExperimentRow>, StoreError>;
+
+    /// Packed rows of a step of an experiment from the run `from` on, in order, each with the number of its first run.
+    async fn packed_rows(&self, id: Uuid, step: i64, from: i64, limit: i64) -> Result<Vec<(i64, Vec<u8>)>, StoreError>;
 
     /// Gives a shard back for its next turn: its worker yields or stops, with its state saved.
     async fn release(&self, claim: &Claim) -> Result<(), StoreError>;

@@ -67,7 +67,8 @@ impl Study {
     }
 }
 
-fn check_total(pointer: &str, what: &'static str, total: u64, most: u64) -> Result<(), StudyError> {
+/// Refuses too much of something.
+pub(super) fn check_total(pointer: &str, what: &'static str, total: u64, most: u64) -> Result<(), StudyError> {
     if total <= most { Ok(()) } else { Err(StudyError::TooMuch { pointer: pointer.to_owned(), what, total, most }) }
 }
 

@@ -97,8 +97,8 @@ async fn a_stopped_engine_s_work_goes_on_from_where_it_was() {
     assert_eq!(stopped.state, JobState::Running);
     assert!(stopped.steps_done > 0);
     assert_eq!(lab.results.checkpoints().await.unwrap(), [(id, 0)]);
-    let kept = lab.results.load(id, 0).await.unwrap().unwrap().snapshot;
-    assert_eq!(kept.step as i64, stopped.steps_done);
+    let kept = lab.results.load(id, 0).await.unwrap().unwrap();
+    assert_eq!(kept.snapshots.iter().map(|snapshot| snapshot.step as i64).sum::<i64>(), stopped.steps_done);
     drop(lab);
 
     let lab = open(folder.path()).await;

@@ -1,6 +1,6 @@
 //! Examples in the description of the API: a request that works as it stands, and answers made by the same code as real ones.
 
-use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
+use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView, examples};
 use crate::api::jobs::{JobView, JobsView};
 use crate::config::Limits;
 use crate::jobs::{Job, JobKind, JobState};
@@ -78,6 +78,11 @@ pub(super) fn answer(operation: &str, status: u16) -> Result<Option<Value>, Scen
             json!({ "id": "2", "event": "state", "data": state.to_string() })
         }
         ("metrics", 200) => json!("# TYPE adaptarm_queue_depth gauge\nadaptarm_queue_depth{state=\"queued\"} 0\n"),
+        ("experiments", 200) => json!(examples().unwrap_or_default().into_iter().take(1).collect::<Vec<_>>()),
+        ("experiment_schema", 200) => json!({ "title": "ExperimentDocument", "type": "object" }),
+        ("file", 200) => {
+            json!("run,point,condition,base,outcome,at_s,index_e_deg\n0,0,nominal,Proposed,completed,,0.0856\n")
+        }
         ("series", 200) => json!("t_s,e_deg_1\n0,0\n0.005,-0.00021\n"),
         _ => return Ok(None),
     }))

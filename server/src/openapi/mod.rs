@@ -5,7 +5,10 @@ mod errors;
 mod examples;
 mod types;
 
-pub use types::{Gain, Health, Index, PresetNames, Report, Scenario, ScenarioLimits, ServerSentEvent, StudyResult};
+pub use types::{
+    AnyResult, Diagnostics, Experiment, ExperimentLimits, Gain, Health, Index, PresetNames, Report, Scenario,
+    ScenarioLimits, ServerSentEvent, StudyResult,
+};
 
 use crate::routes;
 use crate::series::Format;

@@ -1,7 +1,7 @@
 //! Types of the core as the description of the API names them. Their schemas come from the core itself (schemars), which
 //! knows every range and length.
 
-use adaptarm_core::scenario as core;
+use adaptarm_core::{experiments, scenario as core};
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 use utoipa::openapi::{ObjectBuilder, RefOr, Schema};
@@ -47,8 +47,18 @@ macro_rules! of_core {
 of_core! {
     /// A scenario document.
     Scenario = core::ScenarioDocument;
+    /// An experiment document.
+    Experiment = experiments::ExperimentDocument;
+    /// Bounds on experiments.
+    ExperimentLimits = experiments::ExperimentLimits;
+    /// What a sweep, a Monte Carlo study or a comparison says.
+    ExperimentSummary = experiments::Summary;
+    /// What a tuning found.
+    TuningSummary = experiments::TuningSummary;
     /// The report on one scenario.
     Report = core::Report;
+    /// What the samples of one scenario tell of excitation, stability and energy.
+    Diagnostics = adaptarm_core::diagnostics::Diagnostics;
     /// Identifier, title and description of a preset.
     PresetNames = core::Preset;
     /// What is known of a gain.
@@ -70,6 +80,48 @@ pub struct StudyResult {
     state: crate::jobs::JobState,
     /// One per scenario, in their order; null where a failed or canceled job has none.
     reports: Vec<Option<Report>>,
+}
+
+/// A result.
+#[derive(Debug, ToSchema)]
+#[serde(untagged)]
+pub enum AnyResult {
+    /// Of a study.
+    Study(StudyResult),
+    /// Of an experiment.
+    Experiment(ExperimentResult),
+}
+
+/// The result of an experiment, as far as it has come.
+#[derive(Debug, ToSchema)]
+#[expect(dead_code, reason = "handlers write it down as it is; this is its form")]
+pub struct ExperimentResult {
+    /// `adaptarm.experiment_result/1`.
+    #[schema(pattern = "^adaptarm\\.experiment_result/1$")]
+    format: String,
+    /// Whether all of it has been computed.
+    complete: bool,
+    /// Where the job stands.
+    state: crate::jobs::JobState,
+    /// What the rows say: all of them, or those that there were when they were last summed up; null before.
+    summary: Option<AnySummary>,
+    /// Files that can be read at `/result/files/`.
+    files: Vec<String>,
+    /// Figures that can be read at `/result/figures/`, as `.svg` or `.png`.
+    figures: Vec<String>,
+    /// Metrics that they can show.
+    metrics: Vec<String>,
+}
+
+/// A summary.
+#[derive(Debug, ToSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "handlers write it down as it is; this is its form")]
+pub enum AnySummary {
+    /// Of a sweep, a Monte Carlo study or a comparison.
+    Experiment(ExperimentSummary),
+    /// Of a tuning.
+    Tuning(TuningSummary),
 }
 
 /// What the API offers.
@@ -102,8 +154,8 @@ pub struct Health {
 pub struct ServerSentEvent {
     /// Number of the event within its job; absent where the event need not come again.
     id: Option<String>,
-    /// `state`, `summary` or `progress`.
-    #[schema(pattern = "^(state|summary|progress)$")]
+    /// `state`, `summary`, `partial` or `progress`.
+    #[schema(pattern = "^(state|summary|partial|progress)$")]
     event: String,
     /// JSON.
     data: String,

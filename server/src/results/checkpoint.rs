@@ -1,44 +1,45 @@
 //! How far a shard has come, as bytes.
 
 use super::ResultError;
+use crate::packed;
+use adaptarm_core::experiments::Row;
 use adaptarm_core::simulation::Snapshot;
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
-/// Fast, and the samples of a run hardly get smaller by trying harder.
-const COMPRESSION_LEVEL: i32 = 1;
-
-/// A simulation under way, and which one of its shard it is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// Simulations under way, which of their shard they are, and what an experiment's shard has done before them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Number of the scenario in its job.
-    pub n: i64,
-    /// The simulation.
-    pub snapshot: Snapshot,
+    /// Numbers of the scenarios in their job, or of the runs in their experiment.
+    pub numbers: Vec<i64>,
+    /// Each one's simulation.
+    pub snapshots: Vec<Snapshot>,
+    /// Rows of the runs that are done.
+    pub rows: Vec<Row>,
+    /// Steps that those took.
+    pub steps: u64,
 }
 
 impl Checkpoint {
-    /// As bytes, with a hash in front. Takes milliseconds of computing: not for an async task.
+    /// As bytes. Takes milliseconds of computing: not for an async task.
     pub fn encode(&self) -> Result<Bytes, ResultError> {
-        let failed =
-            |error: &dyn std::fmt::Display| ResultError::Damaged(format!("a checkpoint cannot be written: {error}"));
-        let plain = rmp_serde::to_vec_named(self).map_err(|error| failed(&error))?;
-        let packed = zstd::encode_all(&*plain, COMPRESSION_LEVEL).map_err(|error| failed(&error))?;
-        let mut bytes = blake3::hash(&packed).as_bytes().to_vec();
-        bytes.extend(packed);
-        Ok(bytes.into())
+        let failed = |error| ResultError::Damaged(format!("a checkpoint cannot be written: {error}"));
+        packed::pack(self).map(Bytes::from).map_err(failed)
     }
 
     /// From what [`Self::encode`] gave.
     pub fn decode(bytes: &[u8]) -> Result<Self, ResultError> {
-        let damaged =
-            |what: &dyn std::fmt::Display| ResultError::Damaged(format!("a checkpoint is not what was stored: {what}"));
-        let (hash, packed) = bytes.split_at_checked(blake3::OUT_LEN).ok_or_else(|| damaged(&"it is too short"))?;
-        if blake3::hash(packed).as_bytes() != hash {
-            return Err(damaged(&"its hash differs"));
-        }
-        let plain = zstd::decode_all(packed).map_err(|error| damaged(&error))?;
-        rmp_serde::from_slice(&plain).map_err(|error| damaged(&error))
+        let damaged = |error| ResultError::Damaged(format!("a checkpoint is not what was stored: {error}"));
+        packed::unpack(bytes).map_err(damaged)
+    }
+
+    /// The snapshots of these numbers, in their order; none unless all are there.
+    pub fn snapshots_of(&self, numbers: &[i64]) -> Vec<Snapshot> {
+        let snapshot = |number: &i64| {
+            let place = self.numbers.iter().position(|other| other == number)?;
+            self.snapshots.get(place).cloned()
+        };
+        numbers.iter().map(snapshot).collect::<Option<_>>().unwrap_or_default()
     }
 }
 
@@ -55,22 +56,18 @@ mod tests {
         let scenario = Scenario::new(document).unwrap();
         let mut simulation = scenario.start();
         simulation.advance(123);
-        let bytes = Checkpoint { n: 5, snapshot: simulation.snapshot() }.encode().unwrap();
-        let Checkpoint { n, snapshot } = Checkpoint::decode(&bytes).unwrap();
-        let mut resumed = scenario.resume(snapshot).unwrap();
+        let checkpoint =
+            Checkpoint { numbers: vec![5], snapshots: vec![simulation.snapshot()], ..Checkpoint::default() };
+        let decoded = Checkpoint::decode(&checkpoint.encode().unwrap()).unwrap();
+        assert!(decoded.snapshots_of(&[4]).is_empty() && decoded.snapshots_of(&[5, 6]).is_empty());
+        let mut resumed = scenario.resume(decoded.snapshots_of(&[5]).remove(0)).unwrap();
         resumed.advance(u64::MAX);
-        assert_eq!((n, scenario.finish(resumed)), (5, scenario.run()));
+        assert_eq!(scenario.finish(resumed), scenario.run());
     }
 
     #[test]
     fn damaged_bytes_are_refused() {
-        let scenario = Scenario::new(Scheme::SlotineLi.paper()).unwrap();
-        let bytes = Checkpoint { n: 0, snapshot: scenario.start().snapshot() }.encode().unwrap();
-        for end in [0, 10, 40, bytes.len() - 1] {
-            assert!(matches!(Checkpoint::decode(&bytes[..end]), Err(ResultError::Damaged(_))), "{end} bytes");
-        }
-        let mut flipped = bytes.to_vec();
-        *flipped.last_mut().unwrap() ^= 1;
-        assert!(matches!(Checkpoint::decode(&flipped), Err(ResultError::Damaged(_))));
+        let bytes = Checkpoint::default().encode().unwrap();
+        assert!(matches!(Checkpoint::decode(&bytes[..40]), Err(ResultError::Damaged(_))));
     }
 }

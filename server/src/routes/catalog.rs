@@ -2,10 +2,11 @@
 
 use super::internal;
 use crate::api::Name;
-use crate::api::catalog::{LimitsView, PresetView, RobotView, SchemeView};
+use crate::api::catalog::{ExampleView, LimitsView, PresetView, RobotView, SchemeView, examples};
 use crate::error::Problem;
 use crate::openapi::Index;
 use crate::state::AppState;
+use adaptarm_core::experiments::ExperimentDocument;
 use adaptarm_core::robots::ROBOTS;
 use adaptarm_core::scenario::{PRESETS, ScenarioDocument, Scheme, preset as find_preset};
 use axum::Json;
@@ -27,6 +28,8 @@ pub(super) async fn index() -> Json<Value> {
             "robots": "/api/v1/robots",
             "schemes": "/api/v1/schemes",
             "scenario_schema": "/api/v1/schema/scenario",
+            "experiments": "/api/v1/experiments",
+            "experiment_schema": "/api/v1/schema/experiment",
             "limits": "/api/v1/limits",
             "jobs": "/api/v1/jobs",
             "openapi": "/api/v1/openapi.json",
@@ -55,6 +58,15 @@ pub(super) async fn preset(Name(id): Name) -> Result<Json<PresetView>, Problem> 
     PresetView::new(preset).map(Json).map_err(internal)
 }
 
+/// Experiments to begin with: those of the manual.
+#[utoipa::path(
+    get, path = "/api/v1/experiments", operation_id = "experiments", tag = "catalog",
+    responses((status = 200, description = "All examples, each with its whole document.", body = [ExampleView])),
+)]
+pub(super) async fn experiments() -> Result<Json<Vec<ExampleView>>, Problem> {
+    examples().map(Json).map_err(internal)
+}
+
 /// Robots, with their parameters.
 #[utoipa::path(
     get, path = "/api/v1/robots", operation_id = "robots", tag = "catalog",
@@ -81,6 +93,15 @@ pub(super) async fn schemes() -> Result<Json<Vec<SchemeView>>, Problem> {
 )]
 pub(super) async fn scenario_schema() -> Json<Schema> {
     Json(schemars::schema_for!(ScenarioDocument))
+}
+
+/// The JSON Schema of an experiment.
+#[utoipa::path(
+    get, path = "/api/v1/schema/experiment", operation_id = "experiment_schema", tag = "catalog",
+    responses((status = 200, description = "The schema.", body = Value)),
+)]
+pub(super) async fn experiment_schema() -> Json<Schema> {
+    Json(schemars::schema_for!(ExperimentDocument))
 }
 
 /// Every limit on what can be asked.

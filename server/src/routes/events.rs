@@ -43,7 +43,7 @@ pub(super) struct EventsQuery {
 /// Follows a job to its end, by server-sent events.
 ///
 /// `state` events tell `{id, state, reason?, at}`, `summary` events `{scenario, report}` for each scenario that has its
-/// result; these have ids and come again to whoever resumes. `progress` events, without ids, tell
+/// result, `partial` events what an experiment's rows say so far; these have ids and come again to whoever resumes. `progress` events, without ids, tell
 /// `{progress, scenarios_done}` a few times a second while it changes. The stream ends after the final state. Needs the
 /// scope `jobs:read`.
 #[utoipa::path(

@@ -2,12 +2,11 @@
 
 use super::problems::{database, draining, no_job};
 use crate::api::headers::{IDEMPOTENCY_REPLAYED, PREFERENCE_APPLIED, idempotency_key, preferred_wait};
-use crate::api::jobs::{JobRequest, JobView, JobsView, location};
+use crate::api::jobs::{JobRequest, JobRequestForm, JobView, JobsView, location};
 use crate::api::page::{JobsQuery, cursor};
 use crate::api::{JsonBytes, Name, Query};
 use crate::auth::{Reader, Writer};
 use crate::config::Config;
-use crate::document;
 use crate::error::Problem;
 use crate::jobs::{Job, NewJob};
 use crate::state::AppState;
@@ -40,7 +39,7 @@ use uuid::Uuid;
                            longer than `wait_s` of the limits is lowered; anything else is ignored (RFC 7240).",
         ),
     ),
-    request_body(content = JobRequest, content_type = "application/json"),
+    request_body(content = JobRequestForm, content_type = "application/json"),
     responses(
         (
             status = 200, description = "The job has ended within the time that `Prefer: wait` allowed.", body = JobView,
@@ -104,17 +103,15 @@ fn new_job(
     config: &Config,
     receivers: &Policy,
 ) -> Result<NewJob, Problem> {
-    let request: JobRequest = document::parse(bytes)?;
-    let kind = request.kind;
-    let request = request.check(&config.limits, receivers)?;
+    let request = JobRequest::read(bytes)?.check(&config.limits, receivers)?;
     Ok(NewJob {
         owner,
-        kind,
+        kind: request.kind,
         idempotency: key.map(|key| (key, request.hash())),
         label: request.label,
         priority: request.priority,
         webhook: request.webhook,
-        scenarios: request.study.into_new_scenarios(),
+        work: request.work.into_new_work(),
     })
 }
 

@@ -3,6 +3,7 @@
 mod catalog;
 mod docs;
 mod events;
+mod experiments;
 mod health;
 mod jobs;
 pub(crate) mod problems;
@@ -47,6 +48,8 @@ fn operations() -> OpenApiRouter<AppState> {
         .routes(routes!(catalog::robots))
         .routes(routes!(catalog::schemes))
         .routes(routes!(catalog::scenario_schema))
+        .routes(routes!(catalog::experiment_schema))
+        .routes(routes!(catalog::experiments))
         .routes(routes!(catalog::limits))
         .routes(routes!(docs::document))
         .routes(routes!(jobs::submit, jobs::list))
@@ -56,7 +59,9 @@ fn operations() -> OpenApiRouter<AppState> {
         .routes(routes!(results::result))
         .routes(routes!(results::scenario))
         .routes(routes!(results::series))
+        .routes(routes!(results::file))
         .routes(routes!(results::figure))
+        .routes(routes!(results::diagnostics))
         // What watches over servers asks at the top level.
         .routes(routes!(health::alive))
         .routes(routes!(health::ready))

@@ -1,5 +1,6 @@
 //! Reading what jobs gave: reports, samples, figures.
 
+use super::experiments;
 use super::jobs::find;
 use super::problems::{database, not_ready, stored};
 use crate::api::{Name, Query};
@@ -8,12 +9,12 @@ use crate::download::{Disposition, Download};
 use crate::error::Problem;
 use crate::figures::FigureRequest;
 use crate::jobs::{Job, JobState, ScenarioRow, StoreError};
-use crate::openapi::StudyResult;
+use crate::openapi::AnyResult;
 use crate::results::ResultError;
 use crate::series::{SeriesQuery, SeriesRequest};
 use crate::state::AppState;
 use adaptarm_core::recording::Recording;
-use adaptarm_core::scenario::Report;
+use adaptarm_core::scenario::{Report, Scenario};
 use axum::body::{Body, Bytes};
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
@@ -21,12 +22,14 @@ use axum::response::{IntoResponse, Response};
 use futures_util::{Stream, stream};
 use serde::Deserialize;
 use std::sync::Arc;
+use tokio::task::spawn_blocking;
 use uuid::Uuid;
 
 /// Scenarios read at a time.
 const PAGE: i64 = 200;
 
-/// The result of a job that has ended: whole, or as far as it came.
+/// The result of a job: of a study that has ended, whole or as far as it came; of an experiment at any time what is known by
+/// then.
 ///
 /// Needs the scope `jobs:read`.
 #[utoipa::path(
@@ -37,7 +40,7 @@ const PAGE: i64 = 200;
     ),
     responses(
         (
-            status = 200, description = "The reports.", body = StudyResult,
+            status = 200, description = "The reports of a study, or what an experiment says.", body = AnyResult,
             headers(("ETag" = String, description = "Stands for these very bytes.")),
         ),
         (status = 304, description = "You have this file."),
@@ -50,6 +53,9 @@ pub(super) async fn result(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
+    if job.kind.is_experiment() {
+        return experiments::result(&state, &job, &headers).await;
+    }
     if !job.state.is_final() {
         return Err(not_ready(&job, "its result"));
     }
@@ -162,17 +168,54 @@ pub(super) async fn series(
     request.respond(samples(&state, &row).await?, &headers).await
 }
 
-/// Which scenario's figure.
-#[derive(Debug, Clone, Copy, Default, Deserialize, utoipa::IntoParams)]
+/// Which scenario's figure or diagnostics.
+#[derive(Debug, Clone, Default, Deserialize, utoipa::IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub(super) struct FigureQuery {
     /// Number of the scenario; the first is 0.
     #[param(required = false, maximum = 99_999)]
     scenario: usize,
+    /// Of an experiment: the metric that is drawn, such as `tau_rms_nm`.
+    metric: Option<String>,
 }
 
-/// A figure of one scenario: those of the published study, and more.
+/// A file of an experiment: the same bytes as `adaptarm experiment` writes. Rows can be read while they come in.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/files/{name}", operation_id = "file", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        ("name" = String, Path, description = "The file; a wrong name is answered with all that there are.", example = "runs.csv"),
+        ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
+        ("Range" = Option<String>, Header, example = "bytes=0-999", description = "The part of the file that you want."),
+    ),
+    responses(
+        (
+            status = 200, description = "The file.",
+            content((String = "text/csv"), (String = "application/json"), (Vec<u8> = "application/vnd.apache.parquet")),
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (
+            status = 206, description = "The part that is asked for.",
+            content((String = "text/csv"), (String = "application/json"), (Vec<u8> = "application/vnd.apache.parquet")),
+            headers(("Content-Range" = String, description = "Which part it is.")),
+        ),
+        (status = 304, description = "You have this file."),
+    ),
+)]
+pub(super) async fn file(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name((id, name)): Name<(String, String)>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let job = find(&state, owner.as_str(), &id).await?;
+    experiments::file(&state, &job, &name, &headers).await
+}
+
+/// A figure of one scenario: those of the published study, and more; or of an experiment.
 ///
 /// Needs the scope `jobs:read`.
 #[utoipa::path(
@@ -206,12 +249,67 @@ pub(super) async fn figure(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let job = find(&state, owner.as_str(), &id).await?;
+    if job.kind.is_experiment() {
+        return experiments::figure(&state, &job, &name, query.metric, &headers).await;
+    }
+    if query.metric.is_some() {
+        return Err(Problem::status(
+            StatusCode::BAD_REQUEST,
+            "query: only figures of experiments have the parameter `metric`",
+        ));
+    }
     let (row, document, report) = find_report(&state, &job, query.scenario).await?;
     let request = FigureRequest::new(&name, &report)?;
     if let Some(response) = request.not_modified(&headers) {
         return Ok(response);
     }
     request.respond(report, document, samples(&state, &row).await?, &headers).await
+}
+
+/// What the samples of one scenario tell: excitation, Lyapunov function, violated assumptions, energy, chatter.
+///
+/// Needs the scope `jobs:read`.
+#[utoipa::path(
+    get, path = "/api/v1/jobs/{id}/result/diagnostics", operation_id = "diagnostics", tag = "results",
+    params(
+        ("id" = uuid::Uuid, Path, description = "The job's identifier."),
+        FigureQuery,
+        ("If-None-Match" = Option<String>, Header, description = "Tag of the file that you have."),
+    ),
+    responses(
+        (
+            status = 200, description = "The diagnostics.", body = crate::openapi::Diagnostics,
+            headers(("ETag" = String, description = "Stands for these very bytes.")),
+        ),
+        (status = 304, description = "You have this file."),
+    ),
+)]
+pub(super) async fn diagnostics(
+    State(state): State<AppState>,
+    Reader(owner): Reader,
+    Name(id): Name,
+    Query(query): Query<FigureQuery>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let job = find(&state, owner.as_str(), &id).await?;
+    let (row, document, report) = find_report(&state, &job, query.scenario).await?;
+    let content = ["diagnostics", report.scenario_hash.as_str(), report.trajectory_hash.as_str()];
+    let name = format!("{}-diagnostics.json", report.scheme);
+    let download = Download::new("application/json", Disposition::Inline, &name, &content);
+    if let Some(response) = download.not_modified(&headers) {
+        return Ok(response);
+    }
+    let recording = samples(&state, &row).await?;
+    let found = spawn_blocking(move || {
+        let scenario: Scenario = Scenario::read(&mut serde_json::Deserializer::from_str(&document))
+            .map_err(|error| super::internal(error))?;
+        serde_json::to_vec(&scenario.diagnose(&recording).0).map_err(super::internal)
+    });
+    let bytes = found.await.map_err(super::internal)??;
+    let mut response = download.whole(Body::from(bytes));
+    // Nobody can read a part of a JSON document.
+    response.headers_mut().remove(header::ACCEPT_RANGES);
+    Ok(response)
 }
 
 /// One scenario of a job with its document and the report on it.

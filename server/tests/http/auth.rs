@@ -39,6 +39,7 @@ async fn what_is_another_user_s_does_not_exist() {
         ("GET", "/result"),
         ("GET", "/result/series"),
         ("GET", "/result/figures/torques.svg"),
+        ("GET", "/result/diagnostics"),
         ("GET", "/events"),
         ("POST", "/cancel"),
         ("DELETE", ""),

@@ -78,6 +78,21 @@ async fn figures_are_pictures() {
 }
 
 #[tokio::test]
+async fn diagnostics_tell_what_the_samples_do() {
+    let (app, job) = ready().await;
+    let address = format!("{job}/result/diagnostics?scenario=0");
+    let found = app.get(&address).await;
+    assert_eq!((found.status.as_u16(), found.header("content-type")), (200, "application/json"));
+    let again = app.ask("GET", &address, &[("if-none-match", found.header("etag"))]).await;
+    assert_eq!(again.status.as_u16(), 304);
+    let found = found.json();
+    assert_eq!(found["format"], "adaptarm.diagnostics/1");
+    assert_eq!(found["desired_excitation"]["eigenvalues_n2m2"].as_array().unwrap().len(), 18);
+    assert!(found["energy"]["largest_gap_j"].as_f64().unwrap() < 0.1);
+    app.get(&format!("{job}/result/diagnostics?scenario=7")).await.problem(404, "/problems/http");
+}
+
+#[tokio::test]
 async fn the_stored_samples_are_those_that_were_computed() {
     let (app, job) = ready().await;
     let report = app.get(&format!("{job}/result")).await.json()["reports"][0].take();

@@ -121,7 +121,7 @@ async fn a_deleted_job_is_forgotten_and_stops() {
 async fn unknown_jobs() {
     let app = App::new().await;
     for id in ["nonsense", "01a1faef-47aa-739c-8da0-8ec25cc71ac6", "%00", "..%2f.."] {
-        for rest in ["", "/result", "/result/series", "/result/figures/torques.svg", "/events"] {
+        for rest in ["", "/result", "/result/series", "/result/figures/torques.svg", "/result/diagnostics", "/events"] {
             app.get(&format!("/api/v1/jobs/{id}{rest}")).await.problem(404, "/problems/http");
         }
         app.ask("POST", &format!("/api/v1/jobs/{id}/cancel"), &[]).await.problem(404, "/problems/http");

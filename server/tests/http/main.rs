@@ -5,6 +5,7 @@ mod catalog;
 mod description;
 mod errors;
 mod events;
+mod experiments;
 mod files;
 mod guard;
 mod jobs;

@@ -29,6 +29,9 @@ async fn every_file_of_the_page_is_listed_with_the_hash_of_what_is_served() {
     let mut present = BTreeSet::new();
     files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../static"), "", &mut present);
     assert!(present.contains("index.html") && present.contains("js/worker.js"), "{present:?}");
+    let before = present.len();
+    present.retain(|path| !path.starts_with("exercises/"));
+    assert!(present.len() < before, "there are exercises");
     assert_eq!(listed.keys().cloned().collect::<BTreeSet<_>>(), present);
 
     let mut version = Sha256::new();
@@ -43,6 +46,24 @@ async fn every_file_of_the_page_is_listed_with_the_hash_of_what_is_served() {
     let tag = answer.header("etag");
     let known = app.ask("GET", "/files.json", &[("if-none-match", tag)]).await;
     assert_eq!((known.status.as_u16(), known.body.len(), known.header("etag")), (304, 0, tag));
+}
+
+#[tokio::test]
+async fn exercises_with_their_solutions_are_not_served() {
+    let app = App::new().await;
+    for path in [
+        "/exercises/pendulum-gravity.toml",
+        "/exercises/",
+        "/exercises",
+        "/./exercises/pendulum-gravity.toml",
+        "/js/../exercises/pendulum-gravity.toml",
+        "/exercises%2Fpendulum-gravity.toml",
+        "//exercises/pendulum-gravity.toml",
+    ] {
+        let answer = app.get(path).await;
+        assert!(answer.status.as_u16() >= 400, "{path}: {}", answer.status);
+        assert!(!String::from_utf8_lossy(&answer.body).contains("solutions"), "{path}");
+    }
 }
 
 #[tokio::test]

@@ -7,8 +7,9 @@ import { strings } from "../strings/index.js";
 import { follow } from "./follow.js";
 import { explain, showError } from "./message.js";
 import { openStudy } from "./open.js";
+import { ExperimentView } from "./experiment-view.js";
 import { ScenarioTable } from "./reports.js";
-import { jobActions, nameOf } from "./row.js";
+import { jobActions, nameOf, workOf } from "./row.js";
 import { ScenarioView } from "./scenario-view.js";
 import { whenNamed } from "./schemes.js";
 import { stateBadge } from "./state-badge.js";
@@ -36,6 +37,8 @@ export class JobDetails {
   #toolbar = element("div", { class: "job-actions" });
   #table;
   #view;
+  /** What a study is not; there once the kind is known. */
+  #experiment = null;
 
   /** The job `id` with the scenario number `chosen` open. */
   constructor(id, chosen) {
@@ -76,9 +79,12 @@ export class JobDetails {
         await follow(this.id, handlers, signal);
       }
       // What the stream left out of the reports is in the result.
-      const { reports } = await readResult(this.id);
+      if (this.#experiment) {
+        await this.#experiment.load(this.#job);
+      } else {
+        this.#reports = (await readResult(this.id)).reports;
+      }
       signal.throwIfAborted();
-      this.#reports = reports;
       this.#draw();
       document.documentElement.dataset.state = "ready";
     } catch (error) {
@@ -93,6 +99,7 @@ export class JobDetails {
     this.#following.abort();
     cancelAnimationFrame(this.#frame);
     this.#view.stop();
+    this.#experiment?.stop();
   }
 
   /** Opens another scenario. */
@@ -110,12 +117,16 @@ export class JobDetails {
     showError(this.#failure, error, { retry: () => this.start() });
   }
 
-  #hear({ summary, ...news }) {
+  #hear({ summary, partial, ...news }) {
     const before = this.#job?.state;
+    if (partial) {
+      this.#experiment?.hear(this.#job);
+    }
     if (summary) {
       this.#reports[summary.scenario] = summary.report;
     }
     this.#job = { ...this.#job, ...news };
+    this.#buildExperiment();
     if (before && before !== this.#job.state) {
       announce(texts.nowState(nameOf(this.#job), texts.states[this.#job.state]));
     }
@@ -149,15 +160,31 @@ export class JobDetails {
     this.#drawFacts(job);
     this.#drawActions(job);
     this.#note.hidden = !ended || job.state === "succeeded";
+    if (this.#experiment) {
+      return;
+    }
     this.#table.show(this.#reports, job, this.#chosen);
     this.#view.show(this.#chosen, this.#reports[this.#chosen] ?? null);
+  }
+
+  /** An experiment is shown in place of the scenarios of a study. */
+  #buildExperiment() {
+    if (this.#experiment || !this.#job.kind || this.#job.kind === "study") {
+      return;
+    }
+    this.#experiment = new ExperimentView(this.id, this.#failure);
+    this.#view.node.remove();
+    this.#table.node.replaceWith(this.#experiment.node);
+    if (!isFinal(this.#job.state)) {
+      this.#experiment.hear(this.#job);
+    }
   }
 
   #drawFacts(job) {
     const span = job.started_at && job.finished_at ? Date.parse(job.finished_at) - Date.parse(job.started_at) : null;
     const facts = [
       [texts.filterKind, texts.kinds[job.kind] ?? job.kind],
-      [texts.results, texts.scenariosDone(job.scenarios_done, job.scenarios)],
+      [texts.results, workOf(job)],
       [texts.created, exactTime(job.created_at)],
       [texts.started, job.started_at && exactTime(job.started_at)],
       [texts.finished, job.finished_at && exactTime(job.finished_at)],
@@ -190,6 +217,7 @@ export class JobDetails {
         }
         open.disabled = false;
       });
+      open.hidden = job.kind !== "study";
       this.#toolbar.append(open, ...this.#actions.nodes, forgetButton(() => location.reload()).button);
     }
     this.#actions.show(job);

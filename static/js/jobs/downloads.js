@@ -22,17 +22,20 @@ export function buildDownloads(id, n, figure, failure) {
     ["scenario", `jobs/${id}/scenarios/${n}`, `${base}.json`],
     ["result", `jobs/${id}/result`, `adaptarm-${id.slice(0, 13)}.json`],
   ];
-  const link = ([kind, path, name]) => {
-    const node = element("a", { href: address(path), download: name, "data-download": kind }, texts.downloadNames[kind]);
-    node.addEventListener("click", (event) => {
-      if (token() !== null) {
-        event.preventDefault();
-        fetchFile(path, name).catch((error) => showError(failure, error));
-      }
-    });
-    return element("li", {}, node);
-  };
+  const link = ([kind, path, name]) => element("li", {}, fileLink(kind, path, name, texts.downloadNames[kind], failure));
   return element("nav", { class: "downloads", "aria-label": texts.downloads }, element("h3", {}, texts.downloads), element("ul", {}, files.map(link)));
+}
+
+/** A link to the file at `path`, to be kept as `name`. */
+export function fileLink(kind, path, name, text, failure) {
+  const node = element("a", { href: address(path), download: name, "data-download": kind }, text);
+  node.addEventListener("click", (event) => {
+    if (token() !== null) {
+      event.preventDefault();
+      fetchFile(path, name).catch((error) => showError(failure, error));
+    }
+  });
+  return node;
 }
 
 async function fetchFile(path, name) {

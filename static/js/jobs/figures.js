@@ -1,8 +1,8 @@
 // A figure of a scenario as the server draws it, with a choice of which.
 
-import { address, send, token } from "../api.js";
 import { element } from "../dom.js";
 import { strings } from "../strings/index.js";
+import { ServerPicture } from "./picture.js";
 import { schemeName } from "./schemes.js";
 
 const texts = strings.server;
@@ -16,9 +16,10 @@ export class FigurePicture {
   #id;
   #n = 0;
   #report = null;
-  #url = null;
   #choice = element("select", { id: "figure-choice" });
-  #picture = element("img", { ...SIZE });
+  #picture = new ServerPicture({ ...SIZE }, () => {
+    this.#missing.textContent = texts.figureMissing;
+  });
   #missing = element("p", { class: "field-error", role: "status" });
 
   /** Figures of the job `id`; `chosen` is called when another one is chosen. */
@@ -29,10 +30,9 @@ export class FigurePicture {
       this.#load();
       chosen();
     });
-    this.#picture.addEventListener("error", () => this.#failed());
     const label = element("label", { class: "filter", for: this.#choice.id }, element("span", {}, texts.figure), this.#choice);
     // Narrower than it can be read at, it scrolls within its own box.
-    const box = element("div", { class: "picture-box", tabindex: "0", role: "group", "aria-label": texts.figure }, this.#picture);
+    const box = element("div", { class: "picture-box", tabindex: "0", role: "group", "aria-label": texts.figure }, this.#picture.node);
     this.node.append(element("figcaption", {}, label), this.#missing, box);
   }
 
@@ -50,40 +50,15 @@ export class FigurePicture {
 
   /** Lets go of the picture. */
   stop() {
-    URL.revokeObjectURL(this.#url);
-    this.#url = null;
+    this.#picture.stop();
   }
 
-  async #load() {
+  #load() {
     const { scheme, trajectory_hash } = this.#report;
     const path = figurePath(this.#id, this.#n, this.figure, "svg");
-    const key = `${path} ${trajectory_hash}`;
-    if (this.#picture.dataset.key === key) {
-      return;
-    }
-    this.#picture.dataset.key = key;
-    this.#picture.alt = texts.figureAlt(texts.figures[this.figure], this.#n + 1, schemeName(scheme));
     this.#missing.textContent = "";
-    this.stop();
-    if (token() === null) {
-      this.#picture.src = address(path);
-      return;
-    }
-    // An image cannot carry a token.
-    try {
-      const blob = await (await send(path)).blob();
-      if (this.#picture.dataset.key === key) {
-        this.#url = URL.createObjectURL(blob);
-        this.#picture.src = this.#url;
-      }
-    } catch {
-      this.#failed();
-    }
-  }
-
-  #failed() {
-    this.#missing.textContent = texts.figureMissing;
-    delete this.#picture.dataset.key;
+    const alt = texts.figureAlt(texts.figures[this.figure], this.#n + 1, schemeName(scheme));
+    this.#picture.load(path, `${path} ${trajectory_hash}`, alt);
   }
 }
 

@@ -17,7 +17,7 @@ const POLLS = 15;
 
 /**
  * Follows the job `id` until it has ended, and returns the job. `hear` is called with what is known anew: parts of a job
- * such as `{state}` or `{progress, scenarios_done}`, and `summary`, `{scenario, report}`. `trouble` is called with the error
+ * such as `{state}` or `{progress, scenarios_done}`, `summary`, `{scenario, report}`, and `partial`, what an experiment says so far. `trouble` is called with the error
  * while the server cannot be reached, and with null when it can again. Throws `ApiError` where trying again is of no use,
  * and what `signal` says when it is aborted.
  */
@@ -75,7 +75,8 @@ async function stream(id, heard, hear, trouble, signal) {
         ended = isFinal(data.state);
         hear({ state: data.state, reason: data.reason });
       } else {
-        hear(event.type === "summary" ? { summary: data } : data);
+        const whole = event.type === "summary" || event.type === "partial";
+        hear(whole ? { [event.type]: data } : data);
       }
     };
     await readEvents(response.body, onEvent, alive);

@@ -1,6 +1,6 @@
 // Opening a job's scenarios in the playground: fetched as the job runs them, handed over, checked there by the core.
 
-import { readScenario } from "../api.js";
+import { ask, readScenario } from "../api.js";
 import { handOver } from "../handover.js";
 import { strings } from "../strings/index.js";
 
@@ -27,6 +27,11 @@ export async function openStudy(id, count, reports) {
     }
   }
   go(await Promise.all(found.values()));
+}
+
+/** Opens the scenario that is at a path below the API's root. */
+export async function openDocument(path) {
+  go([await ask(path)]);
 }
 
 function go(scenarios) {

@@ -4,6 +4,7 @@ import { cancelJob, deleteJob, isFinal } from "../api.js";
 import { element } from "../dom.js";
 import { strings } from "../strings/index.js";
 import { confirmButton } from "./confirm.js";
+import { texts as experiments } from "./experiment-texts.js";
 import { showError } from "./message.js";
 import { stateBadge } from "./state-badge.js";
 import { formatDuration, formatShare, timeElement } from "./times.js";
@@ -98,13 +99,19 @@ export class JobRow {
   }
 }
 
+/** How much of its work is done. */
+export function workOf({ kind, state, scenarios, scenarios_done: done }) {
+  if (kind === "study") {
+    return isFinal(state) && done === scenarios ? texts.scenarios(scenarios) : texts.scenariosDone(done, scenarios);
+  }
+  return kind === "tuning" ? experiments.candidatesDone(done, scenarios) : experiments.runsDone(done, scenarios);
+}
+
 /** What a row tells beside name and state, as separate pieces. */
 function factsOf(job) {
   const facts = [
     texts.kinds[job.kind] ?? job.kind,
-    isFinal(job.state) && job.scenarios_done === job.scenarios
-      ? texts.scenarios(job.scenarios)
-      : texts.scenariosDone(job.scenarios_done, job.scenarios),
+    workOf(job),
     job.state === "running" ? formatShare(job.progress) : null,
     timeElement(job.created_at),
     job.started_at && job.finished_at ? formatDuration(Date.parse(job.finished_at) - Date.parse(job.started_at)) : null,

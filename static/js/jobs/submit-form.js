@@ -1,6 +1,7 @@
 // Submitting a study by hand: JSON pasted or from a file; what the server finds wrong is said with its place.
 
 import { newKey, submitJob } from "../api.js";
+import { buildExamples } from "./examples.js";
 import { element } from "../dom.js";
 import { notice } from "../notice.js";
 import { strings } from "../strings/index.js";
@@ -19,6 +20,13 @@ export function buildSubmitForm(submitted) {
   const button = element("button", { type: "submit", class: "primary" }, texts.submitButton);
   // The same text sent twice, after a lost answer say, is one request.
   let sent = { body: null, key: null };
+
+  const examples = buildExamples((example) => {
+    text.value = JSON.stringify(example, null, 2);
+    label.value = "";
+    refuse(null);
+    text.focus();
+  }, failure);
 
   file.addEventListener("change", async () => {
     const [chosen] = file.files;
@@ -81,6 +89,7 @@ export function buildSubmitForm(submitted) {
       element("label", { for: label.id }, texts.submitLabel),
       label,
       element("label", { for: text.id }, texts.submitText),
+      examples,
       text,
       wrong,
       element("label", { for: file.id }, texts.submitFile),
@@ -91,7 +100,7 @@ export function buildSubmitForm(submitted) {
   );
 }
 
-/** The request's body for what was typed: a request, a study or one scenario. Null, and why, where it is no JSON. */
+/** The request's body for what was typed: a request, an experiment, a study or one scenario. Null, and why, where it is no JSON. */
 function readBody(text, label, refuse) {
   if (text.trim() === "") {
     refuse(texts.submitEmpty);
@@ -105,7 +114,9 @@ function readBody(text, label, refuse) {
     return null;
   }
   let request = document;
-  if (Array.isArray(document?.scenarios)) {
+  if (String(document?.format).startsWith("adaptarm.experiment/")) {
+    request = { kind: document.kind, spec: document, ...(document.title ? { label: document.title } : {}) };
+  } else if (Array.isArray(document?.scenarios)) {
     request = { kind: "study", spec: document };
   } else if (document?.scheme) {
     request = { kind: "study", spec: { scenarios: [document] } };

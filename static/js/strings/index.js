@@ -38,7 +38,7 @@ export function speak(code) {
 }
 
 /** `base` with everything that `over` has instead, at any depth. */
-function laidOver(base, over) {
+export function laidOver(base, over) {
   const isGroup = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
   const merged = { ...base, ...over };
   for (const [key, value] of Object.entries(base)) {

@@ -99,7 +99,10 @@ fn one_thread_and_two_write_the_same_table() -> Result<()> {
     let (one, two) = (one?, two?);
     assert!(one == two);
     let names: Vec<_> = one.keys().filter_map(|name| name.to_str()).collect();
-    assert_eq!(names, ["checkpoint.bin", "experiment.json", "runs.csv", "runs.parquet", "summary.json"]);
+    assert_eq!(
+        names,
+        ["boxes.svg", "checkpoint.bin", "experiment.json", "ranking.svg", "runs.csv", "runs.parquet", "summary.json"]
+    );
     let csv = String::from_utf8(one[Path::new("runs.csv")].clone())?;
     let lines: Vec<_> = csv.lines().collect();
     assert_eq!(lines.len(), 41);

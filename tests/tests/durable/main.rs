@@ -8,6 +8,7 @@ mod auth;
 mod bucket;
 mod cancel;
 mod examples;
+mod experiments;
 mod fair;
 mod formats;
 mod full_disk;
@@ -58,6 +59,8 @@ type Case = (&'static str, &'static [Need], fn() -> Result<()>);
 const CASES: &[Case] = &[
     ("killed_servers_lose_nothing_and_double_nothing", &[], kill::servers),
     ("workers_and_a_database_may_die_in_turn", &[Need::Postgres], postgres::crashes),
+    ("an_experiment_killed_again_and_again_gives_the_same_bytes", &[], experiments::killed),
+    ("an_experiment_shared_by_workers_gives_the_same_bytes", &[Need::Postgres], experiments::workers),
     ("two_workers_do_nearly_twice_the_work_of_one", &[Need::Postgres], postgres::throughput),
     ("results_in_a_bucket_are_the_same", &[], bucket::results),
     ("nobody_waits_for_anothers_mountain", &[], fair::users),

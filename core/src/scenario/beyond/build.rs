@@ -1,10 +1,15 @@
 //! From a checked document to an imperfect loop: any velocity source, feedback and adaptation, and what the arm suffers.
 
-use super::document::{AdaptationDocument, AdaptationKind, EffectsDocument, VelocityDocument, VelocityKind};
-use crate::adaptation::{AnyAdaptation, FilteredRegressor, LeastSquaresAdaptation, Modification};
+use super::document::{
+    AdaptationDocument, AdaptationKind, EffectsDocument, EncodersDocument, VelocityDocument, VelocityKind,
+};
+use crate::adaptation::{
+    AnyAdaptation, CompositeAdaptation, CompositeLaw, ConcurrentLearning, FilteredRegressor, LeastSquaresAdaptation, Mixing,
+    Modification, PredictionMemory,
+};
 use crate::control::{AnyFeedback, LinearFeedback, LinearModel};
 use crate::dynamics::Plant;
-use crate::effects::{Actuator, Disturbance, Load, Payload, SampledControl, Sensing, Stribeck};
+use crate::effects::{Actuator, Disturbance, Elasticity, EncoderSide, Load, Payload, SampledControl, Sensing, Stribeck};
 use crate::robots::{Robot, payload_parameters};
 use crate::scenario::build::{self, Lanes};
 use crate::scenario::build_trajectory::trajectory;
@@ -20,11 +25,18 @@ use std::cell::RefCell;
 pub(in crate::scenario) fn closed_loop<R: Robot<N, P>, const N: usize, const P: usize>(
     document: &ScenarioDocument,
 ) -> Box<dyn StateSpace<f64>> {
+    Box::new(imperfect_loop::<R, N, P>(document))
+}
+
+/// The same with all its parts in sight; also of a document that asks for nothing beyond the paper.
+pub(in crate::scenario) fn imperfect_loop<R: Robot<N, P>, const N: usize, const P: usize>(
+    document: &ScenarioDocument,
+) -> ImperfectLoop<R, N, P> {
     let none = EffectsDocument::default();
     let effects = document.effects.as_ref().unwrap_or(&none);
     let theta = SVector::from_column_slice(&build::theta(document, R::DATA));
     let plant = Plant::new(theta, build::friction_sign(&[document]));
-    Box::new(ImperfectLoop::<R, N, P> {
+    ImperfectLoop::<R, N, P> {
         controller: controller(document, effects, &plant),
         plant,
         trajectory: Remembered::new(trajectory::<R, f64, N, P>(&[document])),
@@ -41,8 +53,10 @@ pub(in crate::scenario) fn closed_loop<R: Robot<N, P>, const N: usize, const P: 
         },
         actuator: actuator::<R, N, P>(effects),
         load: load::<R, N, P>(effects),
+        elasticity: elasticity(effects),
+        record_steps: record_steps(document),
         work: RefCell::new(Vec::new()),
-    })
+    }
 }
 
 fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
@@ -55,7 +69,7 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         ModelParameters::True => plant.theta,
         ModelParameters::Nominal => nominal,
     };
-    let (velocity_source, feedback, adaptation, mut theta_hat_start) = match &document.scheme {
+    let (velocity_source, mut feedback, adaptation, mut theta_hat_start) = match &document.scheme {
         SchemeDocument::SlotineLi(gains) => {
             let parts = build::slotine_li::<f64, N, P>(&Lanes(&[gains.clone().unwrap_or_default()]));
             let law = AnyAdaptation::Gradient(parts.1);
@@ -94,6 +108,11 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
     if let Some(scale) = &effects.theta_hat_scale {
         theta_hat_start = nominal.component_mul(&SVector::from_column_slice(scale));
     }
+    let signs = document.signs.clone().unwrap_or_default();
+    if let AnyFeedback::Sliding(law) = &mut feedback {
+        law.gain *= signs.feedback.unwrap_or(1.0);
+        law.lambda *= signs.reference.unwrap_or(1.0);
+    }
     let asked = document.adaptation.as_ref();
     Controller {
         velocity_source: document
@@ -102,8 +121,13 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
             .map_or(velocity_source, |velocity| source::<R, N, P>(velocity, document)),
         feedback,
         adaptation: match asked {
-            Some(asked) if asked.kind == AdaptationKind::LeastSquares => least_squares(asked, &document.scheme),
-            _ => adaptation,
+            Some(asked) => match asked.kind {
+                AdaptationKind::Scheme => adaptation,
+                AdaptationKind::LeastSquares => least_squares(asked, &document.scheme),
+                AdaptationKind::Concurrent => concurrent(asked, &document.scheme),
+                AdaptationKind::Drem => drem(asked),
+            },
+            None => adaptation,
         },
         modification: asked.map(|asked| {
             let on = |strength: Option<f64>| strength.filter(|strength| *strength != 0.0);
@@ -116,6 +140,13 @@ fn controller<R: Robot<N, P>, const N: usize, const P: usize>(
         }),
         friction_sign: plant.friction_sign,
         theta_hat_start,
+        integral: document
+            .integral
+            .as_ref()
+            .filter(|own| own.k_i.iter().any(|k| *k != 0.0))
+            .map(|own| joints(Some(&own.k_i))),
+        model_sign: signs.model.unwrap_or(1.0),
+        adaptation_sign: signs.adaptation.unwrap_or(1.0),
     }
 }
 
@@ -148,21 +179,70 @@ fn least_squares<R: Robot<N, P>, const N: usize, const P: usize>(
     asked: &AdaptationDocument,
     scheme: &SchemeDocument,
 ) -> AnyAdaptation<R, f64, N, P> {
-    let gain = match scheme {
-        SchemeDocument::SlotineLi(Some(gains)) => gains.gamma_adapt.as_slice(),
-        SchemeDocument::TangArteaga(Some(gains)) => &gains.gamma_adapt,
-        SchemeDocument::Proposed(Some(gains)) => &gains.gamma_adapt,
-        // A resolved document has its gains filled in, and only schemes that adapt have another adaptation.
-        _ => &[0.0; P],
-    };
+    let gain = adaptation_gain::<P>(scheme);
     let trace: f64 = gain.iter().sum();
     AnyAdaptation::LeastSquares(LeastSquaresAdaptation {
         filter: FilteredRegressor::new(asked.filter_rad_s.unwrap_or_default()),
-        initial_gain: SVector::from_column_slice(gain),
+        initial_gain: gain,
         weight: asked.weight.unwrap_or_default(),
         forgetting: asked.forgetting.unwrap_or_default(),
         // Gains that are all zero stay so; only their quotient by the limit must be a number.
         gain_limit: (asked.gain_limit.unwrap_or_default() * trace).max(f64::MIN_POSITIVE),
+    })
+}
+
+/// The scheme's own Γ.
+fn adaptation_gain<const P: usize>(scheme: &SchemeDocument) -> SVector<f64, P> {
+    match scheme {
+        SchemeDocument::SlotineLi(Some(gains)) => SVector::from_column_slice(&gains.gamma_adapt),
+        SchemeDocument::TangArteaga(Some(gains)) => SVector::from_column_slice(&gains.gamma_adapt),
+        SchemeDocument::Proposed(Some(gains)) => SVector::from_column_slice(&gains.gamma_adapt),
+        // A resolved document has its gains filled in, and only schemes that adapt have another adaptation.
+        _ => SVector::zeros(),
+    }
+}
+
+/// Sizes of a robot's parameters: nominal values, or 1 where those are zero.
+fn sizes<R: Robot<N, P>, const N: usize, const P: usize>() -> SVector<f64, P> {
+    SVector::from_column_slice(&R::DATA.parameter_sizes())
+}
+
+fn concurrent<R: Robot<N, P>, const N: usize, const P: usize>(
+    asked: &AdaptationDocument,
+    scheme: &SchemeDocument,
+) -> AnyAdaptation<R, f64, N, P> {
+    AnyAdaptation::Concurrent(ConcurrentLearning {
+        filter: FilteredRegressor::new(asked.filter_rad_s.unwrap_or_default()),
+        gain: adaptation_gain(scheme),
+        weight: asked.weight.unwrap_or_default(),
+        capacity: asked.stack.unwrap_or_default(),
+        scale: sizes::<R, N, P>(),
+    })
+}
+
+fn drem<R: Robot<N, P>, const N: usize, const P: usize>(asked: &AdaptationDocument) -> AnyAdaptation<R, f64, N, P> {
+    let (rate, floor) = (asked.rate_per_s.unwrap_or_default(), asked.excitation_floor.unwrap_or_default());
+    AnyAdaptation::Composite(CompositeAdaptation {
+        filter: FilteredRegressor::new(asked.filter_rad_s.unwrap_or_default()),
+        memory: PredictionMemory::new(1.0, asked.forgetting.unwrap_or_default()),
+        law: CompositeLaw::Mixed(Mixing::new(rate, floor, sizes::<R, N, P>())),
+    })
+}
+
+fn record_steps(document: &ScenarioDocument) -> Option<u64> {
+    let asked = document.adaptation.as_ref().filter(|asked| asked.kind == AdaptationKind::Concurrent)?;
+    Some(((asked.record_every_s? / document.integration.step_s).round() as u64).max(1))
+}
+
+fn elasticity<const N: usize>(effects: &EffectsDocument) -> Option<Elasticity<N>> {
+    effects.elasticity.as_ref().map(|elasticity| Elasticity {
+        stiffness: joints(Some(&elasticity.stiffness_nm_rad)),
+        damping: joints(elasticity.damping_nms_rad.as_deref()),
+        motor_inertia: joints(Some(&elasticity.motor_inertia_kgm2)),
+        encoders: match elasticity.encoders {
+            EncodersDocument::Motor => EncoderSide::Motor,
+            EncodersDocument::Link => EncoderSide::Link,
+        },
     })
 }
 

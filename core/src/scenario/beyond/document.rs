@@ -67,6 +67,10 @@ pub enum AdaptationKind {
     Scheme,
     /// Least squares with bounded-gain forgetting; starts from the scheme's adaptation gain.
     LeastSquares,
+    /// The gradient beside recorded moments; with the scheme's adaptation gain.
+    Concurrent,
+    /// Dynamic regressor extension and mixing: each parameter by itself, without the gradient.
+    Drem,
 }
 
 optional_fields! {
@@ -84,14 +88,47 @@ optional_fields! {
         dead_zone_rad_s: f64,
         /// ν of normalisation.
         normalisation: f64,
-        /// `least_squares`: bandwidth of the filter that spares the acceleration, rad/s; 15 when left out.
+        /// Bandwidth of the filter that spares the acceleration, rad/s; 15 when left out. Not of kind `scheme`.
         filter_rad_s: f64,
-        /// `least_squares`: weight γ of prediction errors; 0.1 when left out.
+        /// `least_squares`, `concurrent`: weight γ of prediction errors; 0.1 and 1 when left out.
         weight: f64,
-        /// `least_squares`: forgetting rate λ0, 1/s; 1 when left out.
+        /// `least_squares`, `drem`: forgetting rate λ0, 1/s; 1 when left out.
         forgetting: f64,
         /// `least_squares`: largest trace of the gain, as a multiple of the first one; 2 when left out.
         gain_limit: f64,
+        /// `concurrent`: moments that the stack holds; 20 when left out.
+        stack: usize,
+        /// `concurrent`: time between moments that are looked at, s, a whole number of steps and of sampling periods; 0.1 when left out.
+        record_every_s: f64,
+        /// `drem`: rate at which errors fade under full excitation, 1/s; 1 when left out.
+        rate_per_s: f64,
+        /// `drem`: excitation (geometric over arithmetic mean of the eigenvalues) at which they fade half as fast; 0.001 when left out.
+        excitation_floor: f64,
+    }
+}
+
+/// Integral action beside a scheme's own law: `τ − K_i ∫ e dt`, from zero at the start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = super::schema::integral))]
+#[serde(deny_unknown_fields)]
+pub struct IntegralDocument {
+    /// K_i per joint, N·m/(rad·s); 0 is none.
+    pub k_i: Vec<f64>,
+}
+
+optional_fields! {
+    /// Factors on the terms of an adaptive scheme: 1 is right, −1 is a misprinted sign, to see what it does.
+    SignsDocument, super::schema::signs {
+        ;
+        /// Of `−K s`; 1 when left out.
+        feedback: f64,
+        /// Of `Λ e` in the reference velocity; likewise.
+        reference: f64,
+        /// Of the model's torque `Y θ̂`; likewise.
+        model: f64,
+        /// Of the estimates' rate; likewise.
+        adaptation: f64,
     }
 }
 
@@ -150,6 +187,34 @@ pub struct StribeckDocument {
     pub velocity_rad_s: f64,
 }
 
+/// Which side of a joint's spring sensors sit on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum EncodersDocument {
+    /// The motor's.
+    #[default]
+    Motor,
+    /// The link's.
+    Link,
+}
+
+optional_fields! {
+    /// Elastic joints. Source: Spong (1987).
+    ElasticityDocument, super::schema::elasticity {
+        /// Stiffness of the springs per joint, N·m/rad.
+        stiffness_nm_rad: Vec<f64>,
+        /// The motors' share of the arm's inertia per joint, behind the gear, kg·m².
+        motor_inertia_kgm2: Vec<f64>,
+        /// Which side sensors sit on.
+        #[serde(default)]
+        encoders: EncodersDocument,
+        ;
+        /// Damping of the springs per joint, N·m·s/rad; none when left out.
+        damping_nms_rad: Vec<f64>,
+    }
+}
+
 optional_fields! {
     /// Imperfections of the arm, its sensors and its controller's computer. The controller is told of none of them.
     EffectsDocument, super::schema::effects {
@@ -172,7 +237,10 @@ optional_fields! {
         payloads: Vec<PayloadDocument>,
         /// More friction near rest.
         stribeck: StribeckDocument,
-        /// Initial estimates as multiples of the robot's nominal parameters, one each; all 0, as in the paper, when left out.
+        /// Springs between motors and links.
+        elasticity: ElasticityDocument,
+        /// Initial estimates as multiples of the robot's nominal parameters, one each; all 0, as in the paper, when left out. Of a
+        /// yardstick with nominal parameters: what its model is computed with; all 1 when left out.
         theta_hat_scale: Vec<f64>,
     }
 }

@@ -9,8 +9,9 @@ mod resolve;
 mod schema;
 
 pub use document::{
-    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, PayloadDocument, SamplingDocument,
-    StribeckDocument, VelocityDocument, VelocityKind,
+    AdaptationDocument, AdaptationKind, DisturbanceDocument, EffectsDocument, ElasticityDocument, EncodersDocument,
+    IntegralDocument, PayloadDocument, SamplingDocument, SignsDocument, StribeckDocument, VelocityDocument,
+    VelocityKind,
 };
 pub(super) use resolve::resolve;
 
@@ -24,6 +25,8 @@ pub(super) fn is_beyond(document: &ScenarioDocument) -> bool {
         SchemeDocument::Proposed(_) | SchemeDocument::TangArteaga(_) | SchemeDocument::SlotineLi(_)
     ) || document.velocity.is_some()
         || document.adaptation.is_some()
+        || document.integral.is_some()
+        || document.signs.is_some()
         || document.effects.is_some()
 }
 

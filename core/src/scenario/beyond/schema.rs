@@ -58,10 +58,35 @@ pub(super) fn adaptation(schema: &mut Schema) {
             ("weight", limits::STRENGTH),
             ("forgetting", limits::STRENGTH),
             ("gain_limit", limits::GAIN_LIMIT),
+            ("record_every_s", limits::RECORD_S),
+            ("rate_per_s", limits::STRENGTH),
+            ("excitation_floor", limits::EXCITATION_FLOOR),
         ],
     );
-    let least_squares = ["filter_rad_s", "weight", "forgetting", "gain_limit"];
-    kinds(schema, &[(&["scheme"], &least_squares), (&["least_squares"], &[])]);
+    let [fewest, most] = limits::STACK;
+    refine(schema, "/properties/stack", &json_schema!({ "minimum": fewest, "maximum": most }));
+    let all = [
+        "filter_rad_s", "weight", "forgetting", "gain_limit", "stack", "record_every_s", "rate_per_s", "excitation_floor",
+    ];
+    kinds(
+        schema,
+        &[
+            (&["scheme"], &all),
+            (&["least_squares"], &all[4..]),
+            (&["concurrent"], &["forgetting", "gain_limit", "rate_per_s", "excitation_floor"]),
+            (&["drem"], &["weight", "gain_limit", "stack", "record_every_s"]),
+        ],
+    );
+}
+
+/// Of integral action.
+pub(super) fn integral(schema: &mut Schema) {
+    per_joint(schema, &[("k_i", limits::INTEGRAL_GAIN)]);
+}
+
+/// Of signs.
+pub(super) fn signs(schema: &mut Schema) {
+    ranges(schema, &["feedback", "reference", "model", "adaptation"].map(|name| (name, limits::SIGN)));
 }
 
 /// Of the controller's clock.
@@ -89,6 +114,18 @@ pub(super) fn payload(schema: &mut Schema) {
 pub(super) fn stribeck(schema: &mut Schema) {
     per_joint(schema, &[("excess_nm", limits::EXCESS_NM)]);
     ranges(schema, &[("velocity_rad_s", limits::STRIBECK_RAD_S)]);
+}
+
+/// Of elastic joints.
+pub(super) fn elasticity(schema: &mut Schema) {
+    per_joint(
+        schema,
+        &[
+            ("stiffness_nm_rad", limits::STIFFNESS_NM_RAD),
+            ("damping_nms_rad", limits::SPRING_DAMPING_NMS_RAD),
+            ("motor_inertia_kgm2", limits::MOTOR_INERTIA_KGM2),
+        ],
+    );
 }
 
 /// Of all imperfections.
@@ -121,6 +158,8 @@ mod tests {
         assert_eq!(at("/$defs/SamplingDocument/properties/period_s/anyOf/0/const"), 0);
         assert_eq!(at("/$defs/VelocityDocument/anyOf/0/properties/k_d/type"), "null");
         assert_eq!(at("/$defs/AdaptationDocument/properties/gain_limit/minimum"), 1.0);
+        assert_eq!(at("/$defs/IntegralDocument/properties/k_i/maxItems"), 3);
+        assert_eq!(at("/$defs/SignsDocument/properties/model/minimum"), -1.0);
         assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/minItems"), 1);
         assert_eq!(at("/$defs/ComputedTorqueGains/properties/k_p/maxItems"), 3);
         assert_eq!(at("/$defs/SchemeDocument/oneOf").as_array().map(Vec::len), Some(6));

@@ -187,7 +187,7 @@ fn rows_that_cannot_be_are_refused() {
     other.metrics[0] = Some(1.0);
     assert!(results.insert(experiment, other.clone()).unwrap_err().to_string().contains("came twice"));
     other.metrics.pop();
-    assert!(Results::new().insert(experiment, other.clone()).unwrap_err().to_string().contains("39 numbers where 40"));
+    assert!(Results::new().insert(experiment, other.clone()).unwrap_err().to_string().contains("47 numbers where 48"));
     other.index = 21;
     assert!(Results::new().insert(experiment, other).unwrap_err().to_string().contains("no run 21"));
 }

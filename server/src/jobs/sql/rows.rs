@@ -77,6 +77,7 @@ pub(super) struct ShardRow {
     pub(super) attempt: i64,
     pub(super) kills: i64,
     pub(super) steps_done: i64,
+    pub(super) folds: i64,
 }
 
 #[derive(Debug, sqlx::FromRow)]

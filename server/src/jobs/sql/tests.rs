@@ -3,7 +3,7 @@
 use super::sqlite;
 use crate::config::Limits;
 use crate::jobs::{
-    Claim, EventKind, JobState, JobStore, NewJob, NewScenario, Order, StoreError, StoredResult, Submitted, Tick,
+    Claim, EventKind, JobState, JobStore, NewJob, NewScenario, Order, StoreError, StoredResult, Submitted, Task, Tick,
 };
 use adaptarm_core::scenario::{Scenario, Scheme};
 use std::time::Duration;
@@ -36,9 +36,10 @@ fn job(owner: &str, seeds: std::ops::Range<u64>) -> NewJob {
 }
 
 fn result(claim: &Claim) -> StoredResult {
-    let (n, document) = &claim.scenarios[0];
+    let Task::Scenarios(scenarios) = &claim.task else { panic!("{claim:?}") };
+    let (n, document) = &scenarios[0];
     let report = crate::document::parse_scenario(document.as_bytes()).unwrap().run().report;
-    StoredResult { n: *n, report, bytes: 1000, checksum: "0".repeat(64) }
+    StoredResult { n: *n, report, bytes: 1000, checksum: "0".repeat(64), last: scenarios.len() == 1 }
 }
 
 impl Lab {

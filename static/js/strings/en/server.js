@@ -90,9 +90,9 @@ export const server = {
   // The jobs page.
   title: "Jobs",
   intro:
-    "A job is a study that the server computes: it goes on when this page is closed, survives a restart, and gives the same bits as your browser.",
+    "A job is a study or an experiment that the server computes: it goes on when this page is closed, survives a restart, and gives the same bits as your browser.",
   states: { queued: "queued", running: "running", succeeded: "succeeded", failed: "failed", canceled: "canceled" },
-  kinds: { study: "study" },
+  kinds: { study: "study", sweep: "sweep", monte_carlo: "Monte Carlo study", compare: "comparison", tuning: "tuning" },
   filters: "Which jobs",
   filterState: "State",
   filterKind: "Kind",
@@ -178,6 +178,10 @@ export const server = {
     estimates_2: "Estimates θ7 to θ12",
     estimates_3: "Estimates θ13 to θ18",
     torques: "Joint torques",
+    excitation: "Excitation of the parameters",
+    lyapunov: "Lyapunov function and its rate",
+    parameter_error_parts: "Parameter error, excited and unexcited",
+    energy: "Energy",
   },
   figureAlt: (figure, number, scheme) => `${figure} of scenario ${number}, ${scheme}. The numbers are in the table above.`,
   figureMissing: "The figure could not be loaded.",
@@ -197,9 +201,9 @@ export const server = {
   openScenario: "Open this scenario in the playground",
 
   // Submitting.
-  submitTitle: "Submit a study",
-  submitHelp: "A study is a JSON document: {\"scenarios\": [...]}, one scenario, or a whole request of the API.",
-  submitText: "The study as JSON",
+  submitTitle: "Submit a study or an experiment",
+  submitHelp: "A JSON document: a study ({\"scenarios\": [...]}), one scenario, an experiment, or a whole request of the API.",
+  submitText: "Study or experiment as JSON",
   submitFile: "Or choose a file",
   submitLabel: "Name",
   submitButton: "Submit",

@@ -94,9 +94,9 @@ export const server = {
   // La página de trabajos.
   title: "Trabajos",
   intro:
-    "Un trabajo es un estudio que calcula el servidor: sigue aunque se cierre esta página, sobrevive a un reinicio y da los mismos bits que su navegador.",
+    "Un trabajo es un estudio o un experimento que calcula el servidor: sigue aunque se cierre esta página, sobrevive a un reinicio y da los mismos bits que su navegador.",
   states: { queued: "en cola", running: "en marcha", succeeded: "terminado", failed: "fallido", canceled: "cancelado" },
-  kinds: { study: "estudio" },
+  kinds: { study: "estudio", sweep: "barrido", monte_carlo: "estudio Monte Carlo", compare: "comparación", tuning: "sintonización" },
   filters: "Qué trabajos",
   filterState: "Estado",
   filterKind: "Tipo",
@@ -183,6 +183,10 @@ export const server = {
     estimates_2: "Estimaciones θ7 a θ12",
     estimates_3: "Estimaciones θ13 a θ18",
     torques: "Pares articulares",
+    excitation: "Excitación de los parámetros",
+    lyapunov: "Función de Lyapunov y su derivada",
+    parameter_error_parts: "Error de los parámetros, excitado y no excitado",
+    energy: "Energía",
   },
   figureAlt: (figure, number, scheme) => `${figure} del escenario ${number}, ${scheme}. Los números están en la tabla de arriba.`,
   figureMissing: "No se pudo cargar la figura.",
@@ -203,9 +207,9 @@ export const server = {
   openScenario: "Abrir este escenario en el laboratorio",
 
   // Enviar.
-  submitTitle: "Enviar un estudio",
-  submitHelp: "Un estudio es un documento JSON: {\"scenarios\": [...]}, un solo escenario o una petición completa de la API.",
-  submitText: "El estudio como JSON",
+  submitTitle: "Enviar un estudio o un experimento",
+  submitHelp: "Un documento JSON: un estudio ({\"scenarios\": [...]}), un solo escenario, un experimento o una petición completa de la API.",
+  submitText: "El estudio o experimento como JSON",
   submitFile: "O elija un archivo",
   submitLabel: "Nombre",
   submitButton: "Enviar",

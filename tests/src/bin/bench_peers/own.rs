@@ -126,14 +126,8 @@ fn row(recording: &Recording, time_s: f64) -> Result<Vec<f64>> {
         (0..count).filter_map(|component| recording.signal(signal, component).nth(index)).collect()
     };
     // Recordings hold the velocity's error.
-    let desired = paper_trajectory().at(time_s).velocity;
+    let desired = Fourier::<f64, 3>::paper().at(time_s).velocity;
     let velocity: Vec<f64> =
         read(Signal::ErrorRate).iter().zip(&desired).map(|(error, desired)| error + desired).collect();
     Ok([read(Signal::Position), velocity, read(Signal::Error), read(Signal::ThetaHat)].concat())
-}
-
-/// Paper eq. (24).
-fn paper_trajectory() -> Fourier<f64, 3> {
-    let sine_deg = [vec![5.0, 5.0, 2.5], vec![15.0, 3.0, 2.5], vec![10.0, 2.0, 3.0]];
-    Fourier::from_degrees(1.0, &[0.0, 90.0, -90.0], &sine_deg, &[])
 }

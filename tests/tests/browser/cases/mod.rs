@@ -5,6 +5,7 @@ mod appearance;
 mod arm;
 pub mod benchmark;
 mod compare;
+mod experiments;
 mod explain;
 mod exports;
 mod figures;
@@ -76,6 +77,10 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_phone_shows_the_run_on_the_server", server_run::a_phone_shows_the_run_on_the_server),
     ("the_jobs_page_lists_filters_cancels_and_deletes", jobs::the_jobs_page_lists_filters_cancels_and_deletes),
     ("a_job_shows_its_results_and_opens_in_the_playground", jobs::a_job_opens_in_the_playground),
+    ("an_experiment_is_submitted_by_hand", experiments::an_experiment_is_submitted_by_hand),
+    ("experiments_show_tables_figures_and_files", experiments::experiments_show_tables_figures_and_files),
+    ("the_best_of_a_tuning_opens_in_the_playground", experiments::the_best_of_a_tuning_opens_in_the_playground),
+    ("experiments_fit_a_phone_in_both_languages", experiments::experiments_fit_a_phone_in_both_languages),
     ("a_study_is_submitted_by_hand", jobs::a_study_is_submitted_by_hand),
     ("the_jobs_page_fits_a_phone", jobs::the_jobs_page_fits_a_phone),
     ("a_reload_keeps_state_and_theme", resilience::a_reload_keeps_state_and_theme),

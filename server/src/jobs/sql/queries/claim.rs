@@ -2,8 +2,8 @@
 
 use super::change::{State, tell};
 use super::rows::{self, ShardRow};
-use super::{Connection, Pool, begin, now, one_at_a_time};
-use crate::jobs::{Claim, JobState, StoreError};
+use super::{Connection, Pool, begin, experiment, now, one_at_a_time};
+use crate::jobs::{Claim, JobKind, JobState, StoreError, Task};
 use crate::metrics::{self, FailureReason};
 use sqlx::Row;
 use std::time::Duration;
@@ -69,7 +69,7 @@ async fn claim_of(
     let id = rows::id(&job)?;
     // First the job's row: whoever cancels it at this moment is waited for.
     let row = sqlx::query(
-        "UPDATE job SET attempts = attempts WHERE id = $1 AND state IN ('queued', 'running') RETURNING state, label, priority, attempts",
+        "UPDATE job SET attempts = attempts WHERE id = $1 AND state IN ('queued', 'running') RETURNING state, label, priority, attempts, kind",
     )
     .bind(&job)
     .fetch_optional(&mut *connection)
@@ -78,7 +78,7 @@ async fn claim_of(
     let shard: Option<ShardRow> = sqlx::query_as(
         "UPDATE shard SET state = 'running', attempt = attempt + 1, worker = $3, lease_until = $4 \
          WHERE job_id = $1 AND number = $2 AND state = 'queued' \
-         RETURNING number, owner, first, count, attempt, kills, steps_done",
+         RETURNING number, owner, first, count, attempt, kills, steps_done, folds",
     )
     .bind(&job)
     .bind(number)
@@ -105,15 +105,11 @@ async fn claim_of(
     if row.try_get::<String, _>("state")? == JobState::Queued.id() {
         tell(connection, id, State::new(JobState::Running), at).await?;
     }
-    let scenarios = sqlx::query_as(
-        "SELECT n, document FROM job_scenario \
-         WHERE job_id = $1 AND n >= $2 AND n < $3 AND core_version IS NULL ORDER BY n",
-    )
-    .bind(&job)
-    .bind(shard.first)
-    .bind(shard.first + shard.count)
-    .fetch_all(connection)
-    .await?;
+    let task = if row.try_get::<String, _>("kind")? == JobKind::Study.id() {
+        Task::Scenarios(scenarios(connection, &job, &shard).await?)
+    } else {
+        Task::Part(experiment::part(connection, &job, &shard).await?)
+    };
     Ok(Some(Claim {
         job: id,
         owner: shard.owner,
@@ -123,8 +119,22 @@ async fn claim_of(
         attempt: shard.attempt,
         suspect: shard.kills > 0,
         steps_done: shard.steps_done,
-        scenarios,
+        task,
     }))
+}
+
+/// What is left to compute of a study's shard.
+async fn scenarios(connection: &mut Connection, job: &str, shard: &ShardRow) -> Result<Vec<(i64, String)>, StoreError> {
+    let scenarios = sqlx::query_as(
+        "SELECT n, document FROM job_scenario \
+         WHERE job_id = $1 AND n >= $2 AND n < $3 AND core_version IS NULL ORDER BY n",
+    )
+    .bind(job)
+    .bind(shard.first)
+    .bind(shard.first + shard.count)
+    .fetch_all(connection)
+    .await?;
+    Ok(scenarios)
 }
 
 /// Gives back what was claimed by workers that did not come back in time.

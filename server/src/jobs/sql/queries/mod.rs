@@ -2,6 +2,7 @@
 
 mod change;
 mod claim;
+mod experiment;
 mod keep;
 mod queue;
 mod read;
@@ -16,8 +17,8 @@ use super::{
 use crate::config::Limits;
 use crate::jobs::sql::rows;
 use crate::jobs::{
-    Claim, Delivered, Event, Filter, Job, JobStore, NewJob, Order, Pulse, ScenarioRow, StoreError, StoredResult,
-    StoredToken, Submitted, Tick,
+    Claim, Delivered, Event, ExperimentRow, Filter, Folded, Job, JobStore, MadeRuns, NewJob, Order, Pulse, ScenarioRow,
+    StoreError, StoredResult, StoredToken, Submitted, Tick,
 };
 use async_trait::async_trait;
 use jiff::Timestamp;
@@ -129,6 +130,32 @@ impl JobStore for SqlStore {
             self.ring();
         }
         Ok(delivered)
+    }
+
+    async fn deliver_runs(
+        &self,
+        claim: &Claim,
+        made: &MadeRuns,
+        counted: i64,
+        computed: Duration,
+    ) -> Result<Delivered, StoreError> {
+        let delivered = experiment::deliver_runs(&self.write, claim, made, counted, computed).await?;
+        self.ring();
+        Ok(delivered)
+    }
+
+    async fn deliver_fold(&self, claim: &Claim, folded: &Folded, computed: Duration) -> Result<Delivered, StoreError> {
+        let delivered = experiment::deliver_fold(&self.write, claim, folded, computed).await?;
+        self.ring();
+        Ok(delivered)
+    }
+
+    async fn experiment(&self, id: Uuid) -> Result<Option<ExperimentRow>, StoreError> {
+        experiment::find(&self.read, id).await
+    }
+
+    async fn packed_rows(&self, id: Uuid, step: i64, from: i64, limit: i64) -> Result<Vec<(i64, Vec<u8>)>, StoreError> {
+        experiment::packed_rows(&self.read, id, step, from, limit).await
     }
 
     async fn release(&self, claim: &Claim) -> Result<(), StoreError> {

@@ -2,11 +2,11 @@
 
 use super::change::{State, Teller, announce, record, tell, wake};
 use super::rows::{JobRow, job_columns};
-use super::{Connection, Db, Pool, begin, now, while_submitting};
+use super::{Connection, Db, Pool, begin, experiment, now, while_submitting};
 use crate::config::Limits;
 use crate::jobs::plan::{Shard, plan};
 use crate::jobs::store::{EventKind, summary};
-use crate::jobs::{Job, JobState, NewJob, StoreError, Submitted};
+use crate::jobs::{Job, JobState, NewJob, NewScenario, NewWork, StoreError, Submitted};
 use adaptarm_core::scenario::Report;
 use sqlx::{FromRow, QueryBuilder, Row};
 use std::collections::BTreeMap;
@@ -93,17 +93,22 @@ async fn attempt(connection: &mut Connection, job: &NewJob, limits: &Limits) -> 
     if let Some(job) = repeated(connection, job).await? {
         return Ok((Submitted { job, repeated: true }, 0));
     }
-    let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
-    check_quotas(connection, &job.owner, steps, limits).await?;
+    check_quotas(connection, &job.owner, job.work.steps(), limits).await?;
     let known = known_reports(connection, job).await?;
-    let shards = plan(
-        job.scenarios.iter().map(|scenario| (!known.contains_key(scenario.hash.as_str())).then_some(scenario.cost_us)),
-    );
+    let shards = match &job.work {
+        NewWork::Study(scenarios) => plan(
+            scenarios.iter().map(|scenario| (!known.contains_key(scenario.hash.as_str())).then_some(scenario.cost_us)),
+        ),
+        NewWork::Experiment(experiment) => experiment.shards.clone(),
+    };
     let id = Uuid::now_v7();
     let at = now(connection).await?;
     let (accepted, teller) = insert_job(connection, id, job, &known, at).await?;
-    insert_scenarios(connection, id, job, &known).await?;
-    insert_shards(connection, id, job, &shards).await?;
+    match &job.work {
+        NewWork::Study(scenarios) => insert_scenarios(connection, id, scenarios, &known).await?,
+        NewWork::Experiment(experiment) => experiment::insert(connection, id, experiment).await?,
+    }
+    insert_shards(connection, id, (job.owner.as_str(), job.priority), 0, &shards).await?;
     announce(connection, id, teller, State::new(JobState::Queued), at).await?;
     if !known.is_empty() {
         insert_summaries(connection, id, job, &known).await?;
@@ -169,7 +174,7 @@ async fn known_reports<'a>(
     job: &'a NewJob,
 ) -> Result<BTreeMap<&'a str, Report>, StoreError> {
     let mut known = BTreeMap::new();
-    for scenarios in job.scenarios.chunks(BATCH) {
+    for scenarios in job.work.scenarios().chunks(BATCH) {
         let mut query: QueryBuilder<Db> = QueryBuilder::new("SELECT hash, report FROM result WHERE core_version = ");
         query.push_bind(adaptarm_core::VERSION).push(" AND hash IN (");
         let mut list = query.separated(", ");
@@ -203,10 +208,10 @@ async fn insert_job(
     known: &BTreeMap<&str, Report>,
     at: i64,
 ) -> Result<(Job, Teller), StoreError> {
-    let done = |scenario: &&crate::jobs::NewScenario| known.contains_key(scenario.hash.as_str());
-    let steps: u64 = job.scenarios.iter().map(|scenario| scenario.steps).sum();
+    let done = |scenario: &&NewScenario| known.contains_key(scenario.hash.as_str());
+    let scenarios = job.work.scenarios().iter();
     let (count_done, steps_done) =
-        job.scenarios.iter().filter(done).fold((0, 0), |(count, sum), scenario| (count + 1, sum + scenario.steps));
+        scenarios.filter(done).fold((0, 0), |(count, sum), scenario| (count + 1, sum + scenario.steps));
     // A webhook is two strings.
     let webhook = job.webhook.as_ref().map(|webhook| serde_json::to_string(webhook).unwrap_or_default());
     let (key, hash) = job.idempotency.clone().unzip();
@@ -222,11 +227,11 @@ async fn insert_job(
     .bind(job.kind.id())
     .bind(&job.label)
     .bind(job.priority)
-    .bind(i64::from(count_done == job.scenarios.len()))
+    .bind(i64::from(count_done == job.work.count()))
     .bind(at)
-    .bind(job.scenarios.len() as i64)
+    .bind(job.work.count() as i64)
     .bind(count_done as i64)
-    .bind(steps as i64)
+    .bind(job.work.steps() as i64)
     .bind(steps_done as i64)
     .bind(webhook)
     .bind(key)
@@ -244,7 +249,7 @@ async fn insert_summaries(
     known: &BTreeMap<&str, Report>,
 ) -> Result<(), StoreError> {
     let mut seq = 1;
-    for (n, scenario) in job.scenarios.iter().enumerate() {
+    for (n, scenario) in job.work.scenarios().iter().enumerate() {
         if let Some(report) = known.get(scenario.hash.as_str()) {
             seq += 1;
             record(connection, id, seq, EventKind::Summary, &summary(n as i64, report)).await?;
@@ -261,10 +266,10 @@ async fn insert_summaries(
 async fn insert_scenarios(
     connection: &mut Connection,
     id: Uuid,
-    job: &NewJob,
+    scenarios: &[NewScenario],
     known: &BTreeMap<&str, Report>,
 ) -> Result<(), StoreError> {
-    let numbered: Vec<_> = job.scenarios.iter().enumerate().collect();
+    let numbered: Vec<_> = scenarios.iter().enumerate().collect();
     for scenarios in numbered.chunks(BATCH) {
         let mut query: QueryBuilder<Db> =
             QueryBuilder::new("INSERT INTO job_scenario (job_id, n, hash, document, core_version) ");
@@ -281,21 +286,23 @@ async fn insert_scenarios(
     Ok(())
 }
 
-async fn insert_shards(
+/// Adds shards to a job of this owner and priority, numbered from `number` on.
+pub(super) async fn insert_shards(
     connection: &mut Connection,
     id: Uuid,
-    job: &NewJob,
+    (owner, priority): (&str, i64),
+    number: i64,
     shards: &[Shard],
 ) -> Result<(), StoreError> {
-    let numbered: Vec<_> = shards.iter().enumerate().collect();
+    let numbered: Vec<_> = (number..).zip(shards).collect();
     for shards in numbered.chunks(BATCH) {
         let mut query: QueryBuilder<Db> =
             QueryBuilder::new("INSERT INTO shard (job_id, number, owner, priority, first, count, state) ");
         query.push_values(shards, |mut row, (number, shard)| {
             row.push_bind(id.to_string())
-                .push_bind(*number as i64)
-                .push_bind(&job.owner)
-                .push_bind(job.priority)
+                .push_bind(*number)
+                .push_bind(owner)
+                .push_bind(priority)
                 .push_bind(shard.first as i64)
                 .push_bind(shard.count as i64)
                 .push_bind("queued");

@@ -56,7 +56,7 @@ async fn count_steps(connection: &mut Connection, claim: &Claim, tick: Tick) -> 
 }
 
 /// Notes how far a shard is, if the claim still holds; whether it does.
-async fn fenced(
+pub(super) async fn fenced(
     connection: &mut Connection,
     claim: &Claim,
     tick: Tick,
@@ -164,7 +164,7 @@ pub(super) async fn deliver(
     if scenarios_done == scenarios {
         tell(connection, claim.job, State::new(JobState::Succeeded), at).await?;
         delivered = Delivered { order: Order::Stop, ended: Some(JobState::Succeeded) };
-    } else if claim.scenarios.last().is_some_and(|(n, _)| *n == result.n) {
+    } else if result.last {
         sqlx::query("DELETE FROM shard WHERE job_id = $1 AND number = $2")
             .bind(claim.job.to_string())
             .bind(claim.shard)

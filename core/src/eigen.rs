@@ -5,7 +5,7 @@
 const SWEEPS: usize = 30;
 
 /// `A = B diag(d) Bᵀ` of a symmetric n×n matrix given by rows: `(d, B)`, eigenvectors in the columns of B.
-pub(super) fn symmetric_eigen(a: &[f64], n: usize) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn symmetric_eigen(a: &[f64], n: usize) -> (Vec<f64>, Vec<f64>) {
     let mut a = a.to_vec();
     let mut b = vec![0.0; n * n];
     for i in 0..n {

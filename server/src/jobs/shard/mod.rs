@@ -1,14 +1,19 @@
-//! Working on one shard: computing its scenarios one after another, telling the store how far it is, and letting go of it
-//! when the store says so.
+//! Working on one shard: computing what it holds, telling the store how far it is, and letting go of it when the store says
+//! so. `study` and `part` say what a shard holds.
 
-use super::compute::{Control, Finished, Stretch, compute};
+mod part;
+mod study;
+
+use super::compute::{Control, Failure, Members, Stretch, compute, words};
 use super::shared::Shared;
-use super::{Claim, Delivered, Order, StoreError, StoredResult, Tick};
+use super::{Claim, Order, PartWork, StoreError, Task, Tick};
 use crate::metrics::{self, FailureReason};
-use crate::results::ResultError;
-use adaptarm_core::simulation::Snapshot;
+use crate::results::Checkpoint;
+use adaptarm_core::lanes;
+use adaptarm_core::scenario::{Run, Scenario};
 use bytes::Bytes;
 use std::future::Future;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tokio::sync::oneshot;
@@ -39,8 +44,16 @@ enum Stopped {
 pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
     let began = Instant::now();
     let now = Instant::now();
-    let mut worker = Worker { shared, claim, counted: claim.steps_done, since_tick: now, told: now };
-    match worker.work().await {
+    let mut worker =
+        Worker { shared, claim, counted: claim.steps_done, began, since_tick: now, told: now, saved: false };
+    let worked = match &claim.task {
+        Task::Scenarios(scenarios) => worker.study(scenarios).await,
+        Task::Part(part) => match &part.work {
+            PartWork::Runs(range) => worker.runs(part, range).await,
+            PartWork::Fold => worker.fold(part).await,
+        },
+    };
+    match worked {
         Ok(()) => {}
         Err(Stopped::Lost) => {
             tracing::info!(job = %claim.job, shard = claim.shard, "let go: the job ended or others took over");
@@ -67,93 +80,124 @@ pub(super) async fn work(shared: &Arc<Shared>, claim: &Claim) {
 struct Worker<'a> {
     shared: &'a Arc<Shared>,
     claim: &'a Claim,
-    /// Steps of the scenario under way that the store has counted.
+    /// Steps of what is under way that the store has counted.
     counted: i64,
+    began: Instant,
     /// Since when computing time has not been reported.
     since_tick: Instant,
     /// When the store last heard that this shard is alive.
     told: Instant,
+    /// Whether there is a checkpoint.
+    saved: bool,
 }
 
 impl Worker<'_> {
-    async fn work(&mut self) -> Result<(), Stopped> {
-        let began = Instant::now();
+    /// How far the shard was when it was let go.
+    async fn load(&mut self) -> Result<Checkpoint, Stopped> {
         let results = &self.shared.results;
         let loaded = self.alive(results.load(self.claim.job, self.claim.shard)).await?;
-        let mut checkpoint = match loaded {
-            Ok(checkpoint) => checkpoint,
-            Err(error) => {
-                tracing::warn!(job = %self.claim.job, "cannot use a checkpoint, only time is lost: {error}");
-                None
-            }
-        };
-        let mut saved = checkpoint.is_some();
-        for (n, document) in &self.claim.scenarios {
-            let from = checkpoint.take_if(|checkpoint| checkpoint.n == *n).map(|checkpoint| checkpoint.snapshot);
-            let finished = self.scenario(*n, document, from, &mut saved).await?;
-            self.deliver(*n, *finished).await?;
-            let slice = self.shared.settings.slice;
-            // Short scenarios one after another are a long time too.
-            if self.told.elapsed() >= self.shared.settings.heartbeat {
-                match self.tick(0, true, began.elapsed() >= slice).await {
-                    Ok(Order::Stop) if !self.is_last(*n) => return Err(Stopped::Lost),
-                    Ok(Order::Yield) if !self.is_last(*n) => return Err(Stopped::Yielded),
-                    Ok(_) => {}
-                    Err(error) => tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}"),
-                }
-            }
-        }
-        if saved && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await {
-            tracing::warn!(job = %self.claim.job, "cannot remove a checkpoint that is done with: {error}");
-        }
-        Ok(())
+        let checkpoint = loaded.unwrap_or_else(|error| {
+            tracing::warn!(job = %self.claim.job, "cannot use a checkpoint, only time is lost: {error}");
+            None
+        });
+        self.saved = checkpoint.is_some();
+        Ok(checkpoint.unwrap_or_default())
     }
 
-    /// Computes one scenario, in stretches between which its state is saved.
-    async fn scenario(
+    /// Forgets it, once the shard is done.
+    async fn discard(&self) {
+        if self.saved
+            && let Err(error) = self.shared.results.discard(self.claim.job, self.claim.shard).await
+        {
+            tracing::warn!(job = %self.claim.job, "cannot remove a checkpoint that is done with: {error}");
+        }
+    }
+
+    /// Most scenarios that are computed together: as many as there are lanes, but a suspect is found out one by one.
+    fn most_together(&self) -> usize {
+        if self.claim.suspect { 1 } else { lanes::widths()[0] }
+    }
+
+    /// Does something on a thread of the pool. A panic there fails the job.
+    async fn on_pool<T: Send + 'static>(
         &mut self,
-        n: i64,
-        document: &str,
-        mut from: Option<Snapshot>,
-        saved: &mut bool,
-    ) -> Result<Box<Finished>, Stopped> {
+        work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
+    ) -> Result<T, Stopped> {
+        let (sender, receiver) = oneshot::channel();
+        self.shared.pool.spawn_fifo(move || {
+            let done = catch_unwind(AssertUnwindSafe(work));
+            // Nobody listens any more where the runtime has ended.
+            let _ = sender.send(done.unwrap_or_else(|panic| Err((FailureReason::Panicked, words(&*panic).to_owned()))));
+        });
+        let silent =
+            |_| Stopped::Failed(FailureReason::Panicked, "the computing thread ended without a word".to_owned());
+        let done = self.alive(receiver).await?.map_err(silent)?;
+        done.map_err(|(kind, reason)| Stopped::Failed(kind, reason))
+    }
+
+    /// Computes scenarios together, in stretches between which their state is saved; what `keep` makes of each.
+    async fn compute<T: Send + 'static>(
+        &mut self,
+        members: Members,
+        checkpoint: &Checkpoint,
+        keep: impl Fn(i64, &Scenario, Run) -> Result<T, Failure> + Clone + Send + 'static,
+    ) -> Result<Vec<T>, Stopped> {
+        let members = Arc::new(members);
+        let mut from = checkpoint.snapshots_of(&members.numbers);
         let mut interval = self.shared.settings.slice;
         loop {
-            let control = Arc::new(Control::starting_at(from.as_ref().map_or(0, |snapshot| snapshot.step)));
+            let step = from.iter().map(|snapshot| snapshot.step).sum();
+            let control = Arc::new(Control::starting_at(members.steps, step));
             let (sender, receiver) = oneshot::channel();
-            let (document, watched) = (document.to_owned(), control.clone());
+            let (computed, watched, keep) = (members.clone(), control.clone(), keep.clone());
             self.shared.pool.spawn_fifo(move || {
                 // Nobody listens any more where the runtime has ended.
-                let _ = sender.send(compute(n, &document, from, &watched));
+                let _ = sender.send(compute(&computed, &from, &watched, keep));
             });
             let (stretch, order) = self.watch(receiver, &control, interval).await?;
-            let (bytes, snapshot) = match stretch {
+            let (bytes, snapshots) = match stretch {
                 Stretch::Finished(finished) => return Ok(finished),
                 Stretch::Failed(kind, reason) => return Err(Stopped::Failed(kind, reason)),
-                Stretch::Paused(bytes, snapshot) => (bytes, snapshot),
+                Stretch::Paused(bytes, snapshots) => (bytes, snapshots),
             };
             if order == Order::Stop {
                 return Err(Stopped::Lost);
             }
             let began = Instant::now();
-            let kept = self.save(bytes, &control).await?;
-            *saved |= kept;
+            let kept = self.save(bytes, control.steps()).await?;
             // Letting go of what could not be saved would only lose it; at the end there is no choice.
             if order == Order::Yield && (kept || self.shared.is_stopping()) {
                 return Err(Stopped::Yielded);
             }
             interval = self.shared.settings.slice.max(began.elapsed() * CHECKPOINT_SHARE);
-            from = Some(*snapshot);
+            from = snapshots;
+        }
+    }
+
+    /// Tells the store now and then that a shard of many short scenarios goes on, and asks whether it should.
+    async fn go_on(&mut self, steps: u64) -> Result<(), Stopped> {
+        // Short scenarios one after another are a long time too.
+        if self.told.elapsed() < self.shared.settings.heartbeat {
+            return Ok(());
+        }
+        match self.tick(steps, true, self.began.elapsed() >= self.shared.settings.slice).await {
+            Ok(Order::Stop) => Err(Stopped::Lost),
+            Ok(Order::Yield) => Err(Stopped::Yielded),
+            Ok(Order::Continue) => Ok(()),
+            Err(error) => {
+                tracing::warn!(job = %self.claim.job, "cannot reach the store: {error}");
+                Ok(())
+            }
         }
     }
 
     /// Watches over a stretch of computing: tells the store that it goes on, and pauses it when it must.
-    async fn watch(
+    async fn watch<T>(
         &mut self,
-        mut stretch: oneshot::Receiver<Stretch>,
+        mut stretch: oneshot::Receiver<Stretch<T>>,
         control: &Control,
         interval: Duration,
-    ) -> Result<(Stretch, Order), Stopped> {
+    ) -> Result<(Stretch<T>, Order), Stopped> {
         let began = Instant::now();
         let mut order = Order::Continue;
         loop {
@@ -188,7 +232,7 @@ impl Worker<'_> {
     }
 
     async fn tick(&mut self, steps: u64, saved: bool, turn_over: bool) -> Result<Order, StoreError> {
-        let computed = std::mem::replace(&mut self.since_tick, Instant::now()).elapsed();
+        let computed = self.computed();
         let tick = Tick { steps_done: steps as i64, steps_before: self.counted, computed, saved, turn_over };
         let settings = &self.shared.settings;
         let order = self.shared.store.tick(self.claim, tick, settings.lease, &settings.limits).await?;
@@ -213,19 +257,15 @@ impl Worker<'_> {
         }
     }
 
-    /// Whether this is the shard's last scenario.
-    fn is_last(&self, n: i64) -> bool {
-        self.claim.scenarios.last().is_some_and(|(last, _)| *last == n)
-    }
-
     /// Saves how far the shard is. A full disk is no reason to stop computing: the result will show whether there is room.
-    async fn save(&mut self, bytes: Bytes, control: &Control) -> Result<bool, Stopped> {
+    async fn save(&mut self, bytes: Bytes, steps: u64) -> Result<bool, Stopped> {
         let results = &self.shared.results;
         let kept = self.alive(results.save(self.claim.job, self.claim.shard, bytes)).await?;
         if let Err(error) = &kept {
             tracing::warn!(job = %self.claim.job, shard = self.claim.shard, "cannot save a checkpoint: {error}");
         }
-        match self.tick(control.steps(), kept.is_ok(), false).await {
+        self.saved |= kept.is_ok();
+        match self.tick(steps, kept.is_ok(), false).await {
             Ok(Order::Stop) => Err(Stopped::Lost),
             Ok(_) => Ok(kept.is_ok()),
             Err(error) => {
@@ -235,34 +275,9 @@ impl Worker<'_> {
         }
     }
 
-    /// Stores a scenario's result, then tells that it is there.
-    async fn deliver(&mut self, n: i64, Finished { report, encoded, simulated_s }: Finished) -> Result<(), Stopped> {
-        let results = &self.shared.results;
-        let mut pause = RETRY_FIRST;
-        // A store that cannot be reached is waited for, however long: nothing that was computed is given up.
-        while let Err(error) = self.alive(results.put(&report, &encoded)).await? {
-            if !matches!(error, ResultError::Unavailable(_)) {
-                return Err(Stopped::Failed(FailureReason::Storage, format!("scenario {n}: {error}")));
-            }
-            if self.shared.is_stopping() {
-                return Err(Stopped::Yielded);
-            }
-            tracing::warn!(job = %self.claim.job, "scenario {n}: {error}; trying again");
-            self.alive(sleep(pause)).await?;
-            pause = (2 * pause).min(RETRY_LONGEST);
-        }
-        metrics::result_stored(encoded.bytes.len() as u64);
-        metrics::simulated(simulated_s, report.steps);
-        let computed = std::mem::replace(&mut self.since_tick, Instant::now()).elapsed();
-        let result = StoredResult { n, report, bytes: encoded.bytes.len() as u64, checksum: encoded.checksum };
-        let delivered =
-            retry(self.shared, || self.shared.store.deliver(self.claim, &result, self.counted, computed)).await;
-        self.counted = 0;
-        match delivered.map_err(Stopped::Unreachable)? {
-            Delivered { order: Order::Stop, ended: None } => Err(Stopped::Lost),
-            _ if !self.is_last(n) && (self.claim.suspect || self.must_let_go()) => Err(Stopped::Yielded),
-            _ => Ok(()),
-        }
+    /// Computing time since it was last told.
+    fn computed(&mut self) -> Duration {
+        std::mem::replace(&mut self.since_tick, Instant::now()).elapsed()
     }
 }
 
