@@ -5,7 +5,7 @@
 
 use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, Mixing, PredictionMemory, Projection};
 use crate::robots::Robot;
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 use nalgebra::SVector;
 
 /// How θ̂ follows the gradient and the memory.
@@ -51,7 +51,8 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
         theta_hat: &[T],
         rate: &mut [T],
     ) {
-        let (w, theta_hat, rate) = (&memory[..P], &theta_hat[..P], &mut rate[..P]);
+        let w = PredictionMemory::<R, T, N, P>::error(memory);
+        let (theta_hat, rate) = (&theta_hat[..P], &mut rate[..P]);
         match self {
             Self::Additive { gain, memory_gain } => {
                 for k in 0..P {
@@ -64,7 +65,7 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
                     rate[k] = -gain[k] * (drive + projection.correction(k, theta_hat[k], drive));
                 }
             }
-            Self::Mixed(mixing) => mixing.theta_hat_rate(R::PAIRS, memory, rate),
+            Self::Mixed(mixing) => mixing.theta_hat_rate(&w, |i, j| PredictionMemory::<R, T, N, P>::entry(memory, i, j), rate),
         }
     }
 }
@@ -76,6 +77,22 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     fn states(&self) -> usize {
         FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::STATES
+    }
+
+    fn plain_states(&self) -> usize {
+        FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::PLAIN_STATES
+    }
+
+    fn write_plain(&self, states: &[T], plain: &mut [T]) {
+        let filter = FilteredRegressor::<R, T, N, P>::STATES;
+        plain[..filter].copy_from_slice(&states[..filter]);
+        PredictionMemory::<R, T, N, P>::write_plain(&states[filter..], &mut plain[filter..]);
+    }
+
+    fn read_plain(&self, plain: &[T], states: &mut [T]) {
+        let filter = FilteredRegressor::<R, T, N, P>::STATES;
+        states[..filter].copy_from_slice(&plain[..filter]);
+        PredictionMemory::<R, T, N, P>::read_plain(&plain[filter..], &mut states[filter..]);
     }
 
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
@@ -110,7 +127,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        self.derivative_within(input, states, theta_hat_rate, states_rate);
+        T::compiled(Derivative { law: self, input, states, theta_hat_rate, states_rate });
     }
 
     #[inline(always)]
@@ -127,5 +144,25 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
             self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
         self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
         self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
+    }
+}
+
+/// [`AdaptationLaw::derivative`], to be compiled for a kind of scalar.
+struct Derivative<'a, L, R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
+    law: &'a L,
+    input: &'a AdaptationInput<'a, R, T, N, P>,
+    states: &'a [T],
+    theta_hat_rate: &'a mut [T],
+    states_rate: &'a mut [T],
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Kernel
+    for Derivative<'_, CompositeAdaptation<R, T, N, P>, R, T, N, P>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.law.derivative_within(self.input, self.states, self.theta_hat_rate, self.states_rate);
     }
 }

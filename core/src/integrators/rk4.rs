@@ -72,13 +72,11 @@ struct Stage<'a, T> {
 
 impl<T: Scalar> Kernel for Stage<'_, T> {
     type Output = ();
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) {
-        let h = T::splat(self.h);
-        for ((stage, x), k) in self.out.iter_mut().zip(self.x).zip(self.slope) {
-            *stage = *x + h * *k;
-        }
+        stage(self.out, self.x, T::splat(self.h), self.slope);
     }
 }
 
@@ -93,14 +91,11 @@ struct NextStage<'a, T> {
 
 impl<T: Scalar> Kernel for NextStage<'_, T> {
     type Output = ();
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) {
-        let (h, two) = (T::splat(self.h), T::splat(2.0));
-        for (((stage, sum), x), k) in self.out.iter_mut().zip(self.sum).zip(self.x).zip(self.slope) {
-            *sum += two * *k;
-            *stage = *x + h * *k;
-        }
+        next_stage(self.out, self.sum, self.x, T::splat(self.h), self.slope);
     }
 }
 
@@ -115,20 +110,94 @@ struct End<'a, T> {
 
 impl<T: Scalar> Kernel for End<'_, T> {
     type Output = T;
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) -> T {
-        let (sixth, zero) = (T::splat(self.h / 6.0), T::zero());
-        // Zero times a number that is not finite is no number; four sums side by side have less to wait for.
-        let mut zeros = [zero; 4];
-        for (n, (((end, x), sum), k)) in self.out.iter_mut().zip(self.x).zip(self.sum).zip(self.slope).enumerate() {
-            // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
-            // does), several small increments would each be lost and leave it beside the equilibrium.
-            *end = *x + sixth * (*sum + *k);
-            zeros[n % 4] += *end * zero;
-        }
-        (zeros[0] + zeros[1]) + (zeros[2] + zeros[3])
+        end(self.out, self.x, T::splat(self.h / 6.0), self.sum, self.slope)
     }
+}
+
+/// States worked on together: all are read before any is written, so that the compiler need not know what overlaps.
+const BLOCK: usize = 8;
+
+/// The first `len` numbers as blocks, and what is left.
+#[inline(always)]
+fn blocks<T>(numbers: &[T], len: usize) -> (&[[T; BLOCK]], &[T]) {
+    let (blocks, rest) = numbers[..len].as_chunks();
+    (&blocks[..len / BLOCK], &rest[..len % BLOCK])
+}
+
+#[inline(always)]
+fn blocks_mut<T>(numbers: &mut [T], len: usize) -> (&mut [[T; BLOCK]], &mut [T]) {
+    let (blocks, rest) = numbers[..len].as_chunks_mut();
+    (&mut blocks[..len / BLOCK], &mut rest[..len % BLOCK])
+}
+
+#[inline(always)]
+fn stage<T: Scalar>(out: &mut [T], x: &[T], h: T, slope: &[T]) {
+    let len = out.len();
+    let ((out, out_rest), (x, x_rest), (slope, slope_rest)) =
+        (blocks_mut(out, len), blocks(x, len), blocks(slope, len));
+    for n in 0..len / BLOCK {
+        let (mut next, k) = (x[n], slope[n]);
+        for i in 0..BLOCK {
+            next[i] += h * k[i];
+        }
+        out[n] = next;
+    }
+    for i in 0..len % BLOCK {
+        out_rest[i] = x_rest[i] + h * slope_rest[i];
+    }
+}
+
+#[inline(always)]
+fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T]) {
+    let (len, two) = (out.len(), T::splat(2.0));
+    let ((out, out_rest), (sum, sum_rest)) = (blocks_mut(out, len), blocks_mut(sum, len));
+    let ((x, x_rest), (slope, slope_rest)) = (blocks(x, len), blocks(slope, len));
+    for n in 0..len / BLOCK {
+        let (mut next, mut total, k) = (x[n], sum[n], slope[n]);
+        for i in 0..BLOCK {
+            total[i] += two * k[i];
+            next[i] += h * k[i];
+        }
+        sum[n] = total;
+        out[n] = next;
+    }
+    for i in 0..len % BLOCK {
+        sum_rest[i] += two * slope_rest[i];
+        out_rest[i] = x_rest[i] + h * slope_rest[i];
+    }
+}
+
+/// Gives zero where every state is finite: zero times a number that is not is no number.
+#[inline(always)]
+fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) -> T {
+    let (len, zero) = (out.len(), T::zero());
+    let ((out, out_rest), (x, x_rest)) = (blocks_mut(out, len), blocks(x, len));
+    let ((sum, sum_rest), (slope, slope_rest)) = (blocks(sum, len), blocks(slope, len));
+    // Several sums side by side have less to wait for.
+    let mut zeros = [zero; BLOCK];
+    // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection does),
+    // several small increments would each be lost and leave it beside the equilibrium.
+    for n in 0..len / BLOCK {
+        let (mut next, total, k) = (x[n], sum[n], slope[n]);
+        for i in 0..BLOCK {
+            next[i] += sixth * (total[i] + k[i]);
+            zeros[i] += next[i] * zero;
+        }
+        out[n] = next;
+    }
+    for i in 0..len % BLOCK {
+        out_rest[i] = x_rest[i] + sixth * (sum_rest[i] + slope_rest[i]);
+        zeros[i] += out_rest[i] * zero;
+    }
+    let mut all = zero;
+    for i in 0..BLOCK {
+        all += zeros[i];
+    }
+    all
 }
 
 #[cfg(test)]

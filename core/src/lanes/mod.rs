@@ -26,6 +26,33 @@ pub(crate) trait WithLanes {
     fn with<T: Scalar>(self) -> Self::Output;
 }
 
+/// A number of one run, which may know how its neighbours are worked on together.
+pub(crate) trait Number: Scalar {
+    /// These numbers.
+    fn of(numbers: &[f64]) -> &[Self];
+    /// These numbers, to be written.
+    fn of_mut(numbers: &mut [f64]) -> &mut [Self];
+    /// Plain numbers again.
+    fn plain(numbers: &[Self]) -> &[f64];
+}
+
+/// Something to do with a kind of [`Number`].
+pub(crate) trait WithNumber {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn with<T: Number>(self) -> Self::Output;
+}
+
+/// Does `work` with the kind of number that this machine is fastest with.
+pub(crate) fn with_number<W: WithNumber>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if x86_64::widths().contains(&4) {
+        return work.with::<x86_64::OneOfFour>();
+    }
+    work.with::<f64>()
+}
+
 /// How many lanes this machine can work on side by side, most first; always ends in 1.
 pub fn widths() -> &'static [usize] {
     #[cfg(target_arch = "x86_64")]
@@ -59,51 +86,11 @@ pub(crate) fn with_lanes<W: WithLanes>(width: usize, work: W) -> Option<W::Outpu
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 macro_rules! impl_scalar {
     ($lanes:ident, $width:literal, $mask:ty) => {
-        impl_scalar!($lanes, Add, add, AddAssign, add_assign);
-        impl_scalar!($lanes, Sub, sub, SubAssign, sub_assign);
-        impl_scalar!($lanes, Mul, mul, MulAssign, mul_assign);
-        impl_scalar!($lanes, Div, div, DivAssign, div_assign);
-
-        impl std::ops::Neg for $lanes {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                self.negated()
-            }
-        }
-
-        impl num_traits::Zero for $lanes {
-            #[inline(always)]
-            fn zero() -> Self {
-                Self::repeat(0.0)
-            }
-            #[inline(always)]
-            fn is_zero(&self) -> bool {
-                self.to_array() == [0.0; $width]
-            }
-        }
-
-        impl num_traits::One for $lanes {
-            #[inline(always)]
-            fn one() -> Self {
-                Self::repeat(1.0)
-            }
-        }
-
-        impl PartialEq for $lanes {
-            fn eq(&self, other: &Self) -> bool {
-                self.to_array() == other.to_array()
-            }
-        }
-
-        impl std::fmt::Debug for $lanes {
-            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                self.to_array().fmt(f)
-            }
-        }
+        impl_scalar!(@operators $lanes, $width);
 
         impl Scalar for $lanes {
             type Mask = $mask;
+            type Pack = Self;
             const LANES: usize = $width;
 
             #[inline(always)]
@@ -162,6 +149,50 @@ macro_rules! impl_scalar {
             }
         }
     };
+    (@operators $lanes:ident, $width:literal) => {
+        impl_scalar!($lanes, Add, add, AddAssign, add_assign);
+        impl_scalar!($lanes, Sub, sub, SubAssign, sub_assign);
+        impl_scalar!($lanes, Mul, mul, MulAssign, mul_assign);
+        impl_scalar!($lanes, Div, div, DivAssign, div_assign);
+
+        impl std::ops::Neg for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.negated()
+            }
+        }
+
+        impl num_traits::Zero for $lanes {
+            #[inline(always)]
+            fn zero() -> Self {
+                Self::repeat(0.0)
+            }
+            #[inline(always)]
+            fn is_zero(&self) -> bool {
+                self.to_array() == [0.0; $width]
+            }
+        }
+
+        impl num_traits::One for $lanes {
+            #[inline(always)]
+            fn one() -> Self {
+                Self::repeat(1.0)
+            }
+        }
+
+        impl PartialEq for $lanes {
+            fn eq(&self, other: &Self) -> bool {
+                self.to_array() == other.to_array()
+            }
+        }
+
+        impl std::fmt::Debug for $lanes {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                self.to_array().fmt(f)
+            }
+        }
+    };
     ($lanes:ident, $trait:ident, $method:ident, $assign:ident, $assign_method:ident) => {
         impl std::ops::$trait for $lanes {
             type Output = Self;
@@ -181,3 +212,43 @@ macro_rules! impl_scalar {
 }
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 use impl_scalar;
+
+/// Lanes that hold neighbours of one run.
+#[cfg(target_arch = "x86_64")]
+macro_rules! impl_pack {
+    ($lanes:ident, $width:literal, $number:ty) => {
+        impl crate::scalar::Pack<$number> for $lanes {
+            const WIDTH: usize = $width;
+            #[inline(always)]
+            fn repeat(number: $number) -> Self {
+                Self::repeat(number.into())
+            }
+            #[inline(always)]
+            fn load(numbers: &[$number]) -> Self {
+                let mut array = [0.0; $width];
+                let numbers = &numbers[..$width];
+                for n in 0..$width {
+                    array[n] = numbers[n].into();
+                }
+                Self::from_array(array)
+            }
+            #[inline(always)]
+            fn store(self, numbers: &mut [$number]) {
+                let (numbers, array) = (&mut numbers[..$width], self.to_array());
+                for n in 0..$width {
+                    numbers[n] = array[n].into();
+                }
+            }
+            #[inline(always)]
+            fn column(rows: &[Self; crate::scalar::MOST_PACKED], lane: usize) -> Self {
+                let mut array = [0.0; $width];
+                for n in 0..$width {
+                    array[n] = rows[n].to_array()[lane];
+                }
+                Self::from_array(array)
+            }
+        }
+    };
+}
+#[cfg(target_arch = "x86_64")]
+use impl_pack;

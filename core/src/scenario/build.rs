@@ -11,13 +11,15 @@ use crate::control::{CoriolisVelocity, SlidingFeedback};
 use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
+use crate::lanes::{Number, WithNumber};
 use crate::recording::{Columns, Recording};
 use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
-use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
+use crate::simulation::{AsNumbers, ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
 use crate::trajectories::Remembered;
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
+use std::marker::PhantomData;
 
 /// What the lanes of a scalar take their numbers from, one per lane; lanes behind the last repeat it.
 pub(super) struct Lanes<'a, D>(pub(super) &'a [D]);
@@ -71,6 +73,17 @@ pub(super) fn closed_loop<R: Robot<N, P>, T: Scalar, const N: usize, const P: us
         SchemeDocument::Pd(_) | SchemeDocument::PdGravity(_) | SchemeDocument::ComputedTorque(_) => {
             unreachable!("what is beyond the paper is built by `beyond`, and never in lanes")
         }
+    }
+}
+
+/// Builds the closed loop of one document, for the kind of number that this machine is fastest with.
+pub(super) struct Alone<'a, R, const N: usize, const P: usize>(pub &'a ScenarioDocument, pub PhantomData<R>);
+
+impl<R: Robot<N, P>, const N: usize, const P: usize> WithNumber for Alone<'_, R, N, P> {
+    type Output = Box<dyn StateSpace<f64>>;
+
+    fn with<T: Number>(self) -> Self::Output {
+        Box::new(AsNumbers(closed_loop::<R, T, N, P>(&[self.0])))
     }
 }
 

@@ -44,11 +44,13 @@ pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;
 use crate::diagnostics::{Diagnostics, Trace, diagnose};
+use crate::lanes::with_number;
 use crate::metrics::Metrics;
 use crate::recording::Recording;
 use crate::robots::{RobotData, for_robot};
 use crate::simulation::{Settings, Simulation, Snapshot, SnapshotError, StateSpace};
 use serde::{Deserialize, Deserializer};
+use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use tree::{Tree, TreeDeserializer};
 
@@ -294,7 +296,7 @@ impl Scenario {
             if beyond::is_beyond(&self.document) {
                 beyond::build::closed_loop::<R, N, P>(&self.document)
             } else {
-                build::closed_loop::<R, f64, N, P>(&[&self.document])
+                with_number(build::Alone::<R, N, P>(&self.document, PhantomData))
             }
         })
     }

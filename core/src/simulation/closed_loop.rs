@@ -86,7 +86,7 @@ where
     /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
     #[inline(never)]
     fn evaluate_apart(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
-        self.evaluate_within(desired, x)
+        T::compiled(Evaluate { system: self, desired, x })
     }
 
     #[inline(always)]
@@ -165,6 +165,22 @@ where
         self.layout().len
     }
 
+    fn plain_len(&self) -> usize {
+        self.layout().adaptation + self.adaptation.plain_states()
+    }
+
+    fn write_plain(&self, x: &[T], plain: &mut [T]) {
+        let law = self.layout().adaptation;
+        plain[..law].copy_from_slice(&x[..law]);
+        self.adaptation.write_plain(&x[law..], &mut plain[law..]);
+    }
+
+    fn read_plain(&self, plain: &[T], x: &mut [T]) {
+        let law = self.layout().adaptation;
+        x[..law].copy_from_slice(&plain[..law]);
+        self.adaptation.read_plain(&plain[law..], &mut x[law..]);
+    }
+
     fn initialize(&self, x: &mut [T]) {
         let layout = self.layout();
         let desired = self.trajectory.at(0.0);
@@ -202,6 +218,28 @@ where
     fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T] {
         let layout = self.layout();
         &x[layout.theta_hat..layout.adaptation]
+    }
+}
+
+/// [`ClosedLoop::evaluate`], to be compiled for a kind of scalar.
+struct Evaluate<'a, S, T, const N: usize> {
+    system: &'a S,
+    desired: &'a Desired<T, N>,
+    x: &'a [T],
+}
+
+impl<R, V, A, T, const N: usize, const P: usize> Kernel for Evaluate<'_, ClosedLoop<R, V, A, T, N, P>, T, N>
+where
+    R: Robot<N, P>,
+    V: VelocitySource<T, N>,
+    A: AdaptationLaw<R, T, N, P>,
+    T: Scalar,
+{
+    type Output = Evaluation<R, T, N, P>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        self.system.evaluate_within(self.desired, self.x)
     }
 }
 
