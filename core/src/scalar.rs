@@ -19,10 +19,10 @@ pub trait Kernel {
     fn run(self) -> Self::Output;
 }
 
-/// The widest [`Pack`].
+/// Room for the widest [`Pack`].
 pub const MOST_PACKED: usize = 4;
 
-/// Numbers of one run side by side, neighbours in a structure such as a matrix: what one instruction works on.
+/// Neighbours in a structure of one run, such as a matrix: what one instruction works on. Each has the bits that it has alone.
 pub trait Pack<T>: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// How many numbers; at most [`MOST_PACKED`].
     const WIDTH: usize;
@@ -32,8 +32,6 @@ pub trait Pack<T>: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
     fn load(numbers: &[T]) -> Self;
     /// Writes the first [`Pack::WIDTH`] of `numbers`.
     fn store(self, numbers: &mut [T]);
-    /// Number `lane` of each of the first [`Pack::WIDTH`] of `rows`.
-    fn column(rows: &[Self; MOST_PACKED], lane: usize) -> Self;
 }
 
 /// A number alone.
@@ -50,10 +48,6 @@ impl<T: Scalar> Pack<T> for T {
     #[inline(always)]
     fn store(self, numbers: &mut [T]) {
         numbers[0] = self;
-    }
-    #[inline(always)]
-    fn column(rows: &[Self; MOST_PACKED], _lane: usize) -> Self {
-        rows[0]
     }
 }
 
@@ -73,10 +67,12 @@ pub trait Scalar:
 {
     /// Result of a comparison: one truth value per lane.
     type Mask: Copy;
-    /// How many neighbours of one run are worked on together; itself, where its lanes are runs.
+    /// How neighbours of one run are worked on together; the number alone wherever its lanes are runs.
     type Pack: Pack<Self>;
     /// Numbers side by side.
     const LANES: usize;
+    /// Whether this is a number without vector instructions of its own, so that the compiler has to find them.
+    const IS_PLAIN: bool = Self::LANES == 1 && <Self::Pack as Pack<Self>>::WIDTH == 1;
 
     /// The number of each lane.
     fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;

@@ -54,18 +54,6 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         }
     }
 
-    fn plain_states(&self) -> usize {
-        if let Self::Composite(law) = self { law.plain_states() } else { self.states() }
-    }
-
-    fn write_plain(&self, states: &[T], plain: &mut [T]) {
-        if let Self::Composite(law) = self { law.write_plain(states, plain) } else { plain.copy_from_slice(states) }
-    }
-
-    fn read_plain(&self, plain: &[T], states: &mut [T]) {
-        if let Self::Composite(law) = self { law.read_plain(plain, states) } else { states.copy_from_slice(plain) }
-    }
-
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
         match self {
             Self::None => {}

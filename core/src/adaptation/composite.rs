@@ -5,7 +5,7 @@
 
 use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, Mixing, PredictionMemory, Projection};
 use crate::robots::Robot;
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::Scalar;
 use nalgebra::SVector;
 
 /// How θ̂ follows the gradient and the memory.
@@ -51,8 +51,7 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
         theta_hat: &[T],
         rate: &mut [T],
     ) {
-        let w = PredictionMemory::<R, T, N, P>::error(memory);
-        let (theta_hat, rate) = (&theta_hat[..P], &mut rate[..P]);
+        let (w, theta_hat, rate) = (&memory[..P], &theta_hat[..P], &mut rate[..P]);
         match self {
             Self::Additive { gain, memory_gain } => {
                 for k in 0..P {
@@ -65,7 +64,9 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
                     rate[k] = -gain[k] * (drive + projection.correction(k, theta_hat[k], drive));
                 }
             }
-            Self::Mixed(mixing) => mixing.theta_hat_rate(&w, |i, j| PredictionMemory::<R, T, N, P>::entry(memory, i, j), rate),
+            Self::Mixed(mixing) => {
+                mixing.theta_hat_rate(w, |i, j| PredictionMemory::<R, T, N, P>::correlation(memory, i, j), rate);
+            }
         }
     }
 }
@@ -109,7 +110,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        if T::LANES == 1 {
+        if T::IS_PLAIN {
             self.derivative_apart(input, states, theta_hat_rate, states_rate);
         } else {
             self.derivative_within(input, states, theta_hat_rate, states_rate);
@@ -127,7 +128,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        T::compiled(Derivative { law: self, input, states, theta_hat_rate, states_rate });
+        self.derivative_within(input, states, theta_hat_rate, states_rate);
     }
 
     #[inline(always)]
@@ -144,25 +145,5 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
             self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
         self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
         self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
-    }
-}
-
-/// [`AdaptationLaw::derivative`], to be compiled for a kind of scalar.
-struct Derivative<'a, L, R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
-    law: &'a L,
-    input: &'a AdaptationInput<'a, R, T, N, P>,
-    states: &'a [T],
-    theta_hat_rate: &'a mut [T],
-    states_rate: &'a mut [T],
-}
-
-impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Kernel
-    for Derivative<'_, CompositeAdaptation<R, T, N, P>, R, T, N, P>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        self.law.derivative_within(self.input, self.states, self.theta_hat_rate, self.states_rate);
     }
 }

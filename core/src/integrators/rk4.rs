@@ -114,87 +114,60 @@ impl<T: Scalar> Kernel for End<'_, T> {
 
     #[inline(always)]
     fn run(self) -> T {
-        end(self.out, self.x, T::splat(self.h / 6.0), self.sum, self.slope)
+        end(self.out, self.x, T::splat(self.h / 6.0), self.sum, self.slope);
+        zero_where_finite(self.out)
     }
 }
 
-/// States worked on together: all are read before any is written, so that the compiler need not know what overlaps.
-const BLOCK: usize = 8;
-
-/// The first `len` numbers as blocks, and what is left.
-#[inline(always)]
-fn blocks<T>(numbers: &[T], len: usize) -> (&[[T; BLOCK]], &[T]) {
-    let (blocks, rest) = numbers[..len].as_chunks();
-    (&blocks[..len / BLOCK], &rest[..len % BLOCK])
-}
-
-#[inline(always)]
-fn blocks_mut<T>(numbers: &mut [T], len: usize) -> (&mut [[T; BLOCK]], &mut [T]) {
-    let (blocks, rest) = numbers[..len].as_chunks_mut();
-    (&mut blocks[..len / BLOCK], &mut rest[..len % BLOCK])
-}
+// Functions of their own, because the compiler knows of arguments that they do not overlap, and of a structure's fields it does
+// not: without, it works on one number at a time.
 
 #[inline(always)]
 fn stage<T: Scalar>(out: &mut [T], x: &[T], h: T, slope: &[T]) {
     let len = out.len();
-    let ((out, out_rest), (x, x_rest), (slope, slope_rest)) =
-        (blocks_mut(out, len), blocks(x, len), blocks(slope, len));
-    for n in 0..len / BLOCK {
-        let (mut next, k) = (x[n], slope[n]);
-        for i in 0..BLOCK {
-            next[i] += h * k[i];
-        }
-        out[n] = next;
-    }
-    for i in 0..len % BLOCK {
-        out_rest[i] = x_rest[i] + h * slope_rest[i];
+    let (x, slope) = (&x[..len], &slope[..len]);
+    for i in 0..len {
+        out[i] = x[i] + h * slope[i];
     }
 }
 
 #[inline(always)]
 fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T]) {
     let (len, two) = (out.len(), T::splat(2.0));
-    let ((out, out_rest), (sum, sum_rest)) = (blocks_mut(out, len), blocks_mut(sum, len));
-    let ((x, x_rest), (slope, slope_rest)) = (blocks(x, len), blocks(slope, len));
-    for n in 0..len / BLOCK {
-        let (mut next, mut total, k) = (x[n], sum[n], slope[n]);
-        for i in 0..BLOCK {
-            total[i] += two * k[i];
-            next[i] += h * k[i];
-        }
-        sum[n] = total;
-        out[n] = next;
-    }
-    for i in 0..len % BLOCK {
-        sum_rest[i] += two * slope_rest[i];
-        out_rest[i] = x_rest[i] + h * slope_rest[i];
+    let (sum, x, slope) = (&mut sum[..len], &x[..len], &slope[..len]);
+    for i in 0..len {
+        sum[i] += two * slope[i];
+        out[i] = x[i] + h * slope[i];
     }
 }
 
-/// Gives zero where every state is finite: zero times a number that is not is no number.
 #[inline(always)]
-fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) -> T {
-    let (len, zero) = (out.len(), T::zero());
-    let ((out, out_rest), (x, x_rest)) = (blocks_mut(out, len), blocks(x, len));
-    let ((sum, sum_rest), (slope, slope_rest)) = (blocks(sum, len), blocks(slope, len));
-    // Several sums side by side have less to wait for.
-    let mut zeros = [zero; BLOCK];
+fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) {
+    let len = out.len();
+    let (x, sum, slope) = (&x[..len], &sum[..len], &slope[..len]);
     // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection does),
     // several small increments would each be lost and leave it beside the equilibrium.
-    for n in 0..len / BLOCK {
-        let (mut next, total, k) = (x[n], sum[n], slope[n]);
-        for i in 0..BLOCK {
-            next[i] += sixth * (total[i] + k[i]);
-            zeros[i] += next[i] * zero;
+    for i in 0..len {
+        out[i] = x[i] + sixth * (sum[i] + slope[i]);
+    }
+}
+
+/// Zero where every number is finite: zero times a number that is not is no number.
+#[inline(always)]
+fn zero_where_finite<T: Scalar>(numbers: &[T]) -> T {
+    // Several sums side by side have less to wait for.
+    let mut zeros = [T::zero(); 8];
+    let (blocks, rest) = numbers.as_chunks::<8>();
+    for n in 0..blocks.len() {
+        for i in 0..8 {
+            zeros[i] += blocks[n][i] * T::zero();
         }
-        out[n] = next;
     }
-    for i in 0..len % BLOCK {
-        out_rest[i] = x_rest[i] + sixth * (sum_rest[i] + slope_rest[i]);
-        zeros[i] += out_rest[i] * zero;
+    for i in 0..rest.len() {
+        zeros[i] += rest[i] * T::zero();
     }
-    let mut all = zero;
-    for i in 0..BLOCK {
+    let mut all = T::zero();
+    for i in 0..8 {
         all += zeros[i];
     }
     all
@@ -227,9 +200,9 @@ mod tests {
     #[test]
     fn tells_what_is_not_finite() {
         for bad in [f64::NAN, f64::INFINITY] {
-            for n in 0..6 {
-                let mut x = vec![1.0; 6];
-                let finite = Rk4::new(6).step(0.0, 1.0, &mut x, |_, _, rate| {
+            for n in 0..11 {
+                let mut x = vec![1.0; 11];
+                let finite = Rk4::new(11).step(0.0, 1.0, &mut x, |_, _, rate| {
                     rate.fill(0.0);
                     rate[n] = bad;
                 });

@@ -4,6 +4,8 @@
 //! machine has is asked once, at run time ([`widths`]); vector instructions are used only inside [`Scalar::compiled`].
 
 mod one;
+#[cfg(target_arch = "x86_64")]
+mod one_of_four;
 #[cfg(test)]
 mod tests;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -11,6 +13,8 @@ mod wasm;
 #[cfg(target_arch = "x86_64")]
 mod x86_64;
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) use one_of_four::OneOfFour;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 pub(crate) use wasm::F64x2;
 #[cfg(target_arch = "x86_64")]
@@ -24,33 +28,6 @@ pub(crate) trait WithLanes {
     type Output;
     /// Does it.
     fn with<T: Scalar>(self) -> Self::Output;
-}
-
-/// A number of one run, which may know how its neighbours are worked on together.
-pub(crate) trait Number: Scalar {
-    /// These numbers.
-    fn of(numbers: &[f64]) -> &[Self];
-    /// These numbers, to be written.
-    fn of_mut(numbers: &mut [f64]) -> &mut [Self];
-    /// Plain numbers again.
-    fn plain(numbers: &[Self]) -> &[f64];
-}
-
-/// Something to do with a kind of [`Number`].
-pub(crate) trait WithNumber {
-    /// What comes of it.
-    type Output;
-    /// Does it.
-    fn with<T: Number>(self) -> Self::Output;
-}
-
-/// Does `work` with the kind of number that this machine is fastest with.
-pub(crate) fn with_number<W: WithNumber>(work: W) -> W::Output {
-    #[cfg(target_arch = "x86_64")]
-    if x86_64::widths().contains(&4) {
-        return work.with::<x86_64::OneOfFour>();
-    }
-    work.with::<f64>()
 }
 
 /// How many lanes this machine can work on side by side, most first; always ends in 1.
@@ -212,43 +189,3 @@ macro_rules! impl_scalar {
 }
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 use impl_scalar;
-
-/// Lanes that hold neighbours of one run.
-#[cfg(target_arch = "x86_64")]
-macro_rules! impl_pack {
-    ($lanes:ident, $width:literal, $number:ty) => {
-        impl crate::scalar::Pack<$number> for $lanes {
-            const WIDTH: usize = $width;
-            #[inline(always)]
-            fn repeat(number: $number) -> Self {
-                Self::repeat(number.into())
-            }
-            #[inline(always)]
-            fn load(numbers: &[$number]) -> Self {
-                let mut array = [0.0; $width];
-                let numbers = &numbers[..$width];
-                for n in 0..$width {
-                    array[n] = numbers[n].into();
-                }
-                Self::from_array(array)
-            }
-            #[inline(always)]
-            fn store(self, numbers: &mut [$number]) {
-                let (numbers, array) = (&mut numbers[..$width], self.to_array());
-                for n in 0..$width {
-                    numbers[n] = array[n].into();
-                }
-            }
-            #[inline(always)]
-            fn column(rows: &[Self; crate::scalar::MOST_PACKED], lane: usize) -> Self {
-                let mut array = [0.0; $width];
-                for n in 0..$width {
-                    array[n] = rows[n].to_array()[lane];
-                }
-                Self::from_array(array)
-            }
-        }
-    };
-}
-#[cfg(target_arch = "x86_64")]
-use impl_pack;

@@ -3,28 +3,11 @@
 
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 use super::F64x2;
-use super::Number;
 use crate::scalar::{Kernel, Scalar, sin_cos_of_any};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT, TANH_LIMIT};
 
-impl Number for f64 {
-    fn of(numbers: &[f64]) -> &[Self] {
-        numbers
-    }
-    fn of_mut(numbers: &mut [f64]) -> &mut [Self] {
-        numbers
-    }
-    fn plain(numbers: &[Self]) -> &[f64] {
-        numbers
-    }
-}
-
 impl Scalar for f64 {
     type Mask = bool;
-    // In a browser pairs cost as much as they gain (docs/decisions/0021-neighbours.md).
-    #[cfg(target_arch = "x86_64")]
-    type Pack = F64x2;
-    #[cfg(not(target_arch = "x86_64"))]
     type Pack = Self;
     const LANES: usize = 1;
 
@@ -40,7 +23,7 @@ impl Scalar for f64 {
     fn compiled<K: Kernel>(kernel: K) -> K::Output {
         // A number alone does as well without; loops over many, which the compiler turns into vectors, do not.
         #[cfg(target_arch = "x86_64")]
-        if K::LOOPS_OVER_NUMBERS && super::x86_64::widths().contains(&4) {
+        if K::LOOPS_OVER_NUMBERS && super::OneOfFour::is_here() {
             return super::F64x4::compiled(kernel);
         }
         kernel.run()

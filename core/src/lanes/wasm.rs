@@ -9,7 +9,7 @@ use std::arch::wasm32::*;
 /// Two lanes, simd128.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub struct F64x2(v128);
+pub(crate) struct F64x2(v128);
 
 impl F64x2 {
     #[inline(always)]

@@ -1,12 +1,12 @@
 //! Lanes of x86-64: 2 with SSE2, which every such machine has, 4 with AVX2, 8 with AVX-512.
 //!
-//! The one place in the core with unsafe code: `std::arch` asks the caller to know that the machine has an instruction.
-//! Here [`super::with_lanes`] asks first, the types are the crate's own, and nothing else makes a value of them
-//! (docs/decisions/0015-lanes.md).
+//! The unsafe code is that `std::arch` asks the caller to know that the machine has an instruction. Here
+//! [`super::with_lanes`] asks first, or who works with [`super::OneOfFour`]; the types are the crate's own, and nothing else
+//! makes a value of them (docs/decisions/0015-lanes.md).
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
-use super::{Number, impl_pack, impl_scalar};
-use crate::scalar::{Kernel, Pack, Scalar};
+use super::impl_scalar;
+use crate::scalar::{Kernel, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
 use std::arch::x86_64::*;
@@ -33,13 +33,13 @@ macro_rules! lanes {
         $(#[$doc])*
         #[derive(Clone, Copy)]
         #[repr(transparent)]
-        pub struct $lanes($vector);
+        pub(crate) struct $lanes($vector);
 
         // SAFETY, of every block below: a value of this type exists only on a machine with the instructions named here; see
         // the head of this file. Arrays and vectors of as many numbers have the same layout.
         impl $lanes {
             #[inline(always)]
-            fn repeat(value: f64) -> Self {
+            pub(super) fn repeat(value: f64) -> Self {
                 unsafe { Self($repeat(value)) }
             }
             #[inline(always)]
@@ -138,9 +138,6 @@ lanes! {
     power: |n| _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(n))),
 }
 
-impl_pack!(F64x2, 2, f64);
-impl_pack!(F64x4, 4, OneOfFour);
-
 lanes! {
     /// Eight lanes, AVX-512.
     F64x8, 8, __m512d, __mmask8, "avx512f,avx512dq",
@@ -150,140 +147,4 @@ lanes! {
     select: |mask, a, b| _mm512_mask_blend_pd(mask, b, a),
     bit: |n, bit: i64| _mm512_test_epi64_mask(_mm512_castpd_si512(n), _mm512_set1_epi64(1 << bit)),
     power: |n| _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(n))),
-}
-
-/// One number of a run whose neighbours are worked on four at a time, AVX2.
-#[derive(Clone, Copy)]
-#[repr(transparent)]
-pub struct OneOfFour(f64);
-
-impl From<f64> for OneOfFour {
-    #[inline(always)]
-    fn from(number: f64) -> Self {
-        Self(number)
-    }
-}
-
-impl From<OneOfFour> for f64 {
-    #[inline(always)]
-    fn from(number: OneOfFour) -> Self {
-        number.0
-    }
-}
-
-// SAFETY, of every block below: the layout is that of the one field.
-impl Number for OneOfFour {
-    fn of(numbers: &[f64]) -> &[Self] {
-        unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) }
-    }
-    fn of_mut(numbers: &mut [f64]) -> &mut [Self] {
-        unsafe { std::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) }
-    }
-    fn plain(numbers: &[Self]) -> &[f64] {
-        unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) }
-    }
-}
-
-impl OneOfFour {
-    #[inline(always)]
-    fn repeat(value: f64) -> Self {
-        Self(value)
-    }
-    #[inline(always)]
-    fn to_array(self) -> [f64; 1] {
-        [self.0]
-    }
-    #[inline(always)]
-    fn negated(self) -> Self {
-        Self(-self.0)
-    }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self(self.0 / other.0)
-    }
-}
-impl_scalar!(@operators OneOfFour, 1);
-
-/// As one number does, but for its neighbours.
-impl Scalar for OneOfFour {
-    type Mask = bool;
-    type Pack = F64x4;
-    const LANES: usize = 1;
-
-    #[inline(always)]
-    fn from_lanes(number: impl FnMut(usize) -> f64) -> Self {
-        Self(f64::from_lanes(number))
-    }
-    #[inline(always)]
-    fn lane(self, n: usize) -> f64 {
-        self.0.lane(n)
-    }
-    #[inline(always)]
-    fn compiled<K: Kernel>(kernel: K) -> K::Output {
-        F64x4::compiled(kernel)
-    }
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self(value)
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = Scalar::sin_cos(self.0);
-        (Self(sin), Self(cos))
-    }
-    #[inline(always)]
-    fn sin_cos_of_two(a: Self, b: Self) -> ((Self, Self), (Self, Self)) {
-        let ((sin_a, cos_a), (sin_b, cos_b)) = f64::sin_cos_of_two(a.0, b.0);
-        ((Self(sin_a), Self(cos_a)), (Self(sin_b), Self(cos_b)))
-    }
-    #[inline(always)]
-    fn tanh(self) -> Self {
-        Self(Scalar::tanh(self.0))
-    }
-    #[inline(always)]
-    fn tanh_each(x: &mut [Self]) {
-        let (fours, rest) = x.as_chunks_mut::<4>();
-        for four in fours {
-            <F64x4 as Pack<Self>>::load(four).tanh().store(four);
-        }
-        for x in rest {
-            *x = x.tanh();
-        }
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(Scalar::abs(self.0))
-    }
-    #[inline(always)]
-    fn less_than(self, other: Self) -> bool {
-        self.0 < other.0
-    }
-    #[inline(always)]
-    fn any(mask: bool) -> bool {
-        mask
-    }
-    #[inline(always)]
-    fn quadrant(self) -> (bool, bool, bool) {
-        self.0.quadrant()
-    }
-    #[inline(always)]
-    fn power_of_two(self) -> Self {
-        Self(self.0.power_of_two())
-    }
-    #[inline(always)]
-    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
-        if mask { if_true } else { if_false }
-    }
 }

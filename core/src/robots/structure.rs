@@ -1,7 +1,5 @@
 //! Compile-time bookkeeping of a regressor's zeros: from the pattern that a robot states to the lists that loops run over.
 
-use super::symmetric::share_row;
-
 /// Reads a pattern that is drawn, one row per joint and one character per parameter: `#` may differ from zero.
 pub const fn pattern_to_live<const N: usize, const P: usize>(pattern: &[&[u8; P]; N]) -> [[bool; P]; N] {
     let mut live = [[false; P]; N];
@@ -53,6 +51,18 @@ pub const fn list_entries<const N: usize, const P: usize, const L: usize>(
         row += 1;
     }
     list
+}
+
+/// Whether two parameters meet in a row, so that entry (i, j) of `YᵀY` can differ from zero.
+pub(super) const fn share_row<const N: usize, const P: usize>(live: &[[bool; P]; N], i: usize, j: usize) -> bool {
+    let mut row = 0;
+    while row < N {
+        if live[row][i] && live[row][j] {
+            return true;
+        }
+        row += 1;
+    }
+    false
 }
 
 /// How many pairs `i <= j` of parameters share a row.

@@ -1,128 +1,51 @@
-//! Where the live numbers of a symmetric matrix such as `YᵀY` are kept, so that vector instructions find them side by side.
+//! Where the live numbers of a symmetric matrix such as `YᵀY` are kept, so that vector instructions find neighbours.
 //!
-//! Parameters that are live in the same joints' rows form groups as wide as a vector. Of each block that two groups make, the
-//! vectors `(i, group)` are kept: row i's numbers in that group's columns. What is asked for across them is put together from
-//! several. With a width of 1 this is the upper triangle, row by row. All of it is computed while the program is compiled.
+//! The columns form groups as wide as a vector. Of each block that two groups make, the vectors `(i, group)` are kept: row i's
+//! numbers in that group's columns; what lies across is read from them one by one. With a width of 1 this is the upper
+//! triangle, row by row. All of it is computed while the program is compiled.
 
-use crate::scalar::MOST_PACKED;
+use super::structure::share_row;
 
 /// In place of an index: there is none.
 pub const NONE: usize = usize::MAX;
-/// Room in the lists.
-const MOST: usize = 384;
-
-/// Row `parameter` of the matrix, in the columns of `group`.
-#[derive(Debug, Clone, Copy)]
-pub struct Piece {
-    /// Which row.
-    pub parameter: usize,
-    /// Which columns.
-    pub group: usize,
-    /// Which kept vectors it comes from: itself alone, or one per number of the group ([`NONE`] for zeros).
-    pub from: [usize; MOST_PACKED],
-    /// Which number of each of them; [`NONE`] where it is kept as it is.
-    pub lane: usize,
-}
+/// Room in the lists; compiling fails where it does not suffice.
+const MOST: usize = 324;
 
 /// A symmetric matrix of `P` rows in vectors of `width` numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricLayout<const P: usize> {
     /// Numbers in a vector.
-    pub width: usize,
-    /// The parameters of each group; [`NONE`] where it is not full.
-    pub members: [[usize; MOST_PACKED]; P],
-    /// Number of groups.
+    width: usize,
+    /// Number of groups; the last may reach beyond the columns.
     pub groups: usize,
-    /// The kept vectors, in their order.
+    /// The kept vectors `(row, group)`, in their order.
     pub kept: [(usize, usize); MOST],
     /// Number of kept vectors.
     pub kept_len: usize,
-    /// All rows of the whole matrix in the columns of all groups, as far as they are live: by group, then by row.
-    pub pieces: [Piece; MOST],
-    /// Number of pieces.
-    pub pieces_len: usize,
+    /// All `(row, group)` of the whole matrix that are live anywhere, by group, then by row.
+    pub whole: [(usize, usize); MOST],
+    /// How many these are.
+    pub whole_len: usize,
+    /// Where entry (i, j) is among the kept numbers; [`NONE`] where it is zero and not kept.
+    pub at: [[usize; P]; P],
 }
 
 impl<const P: usize> SymmetricLayout<P> {
     /// The layout for a pattern of live entries, `LIVE` of a robot.
     pub const fn new<const N: usize>(live: &[[bool; P]; N], width: usize) -> Self {
-        assert!(width <= MOST_PACKED);
-        let none = Piece { parameter: 0, group: 0, from: [NONE; MOST_PACKED], lane: NONE };
         let mut layout = Self {
             width,
-            members: [[NONE; MOST_PACKED]; P],
-            groups: 0,
+            groups: P.div_ceil(width),
             kept: [(NONE, NONE); MOST],
             kept_len: 0,
-            pieces: [none; MOST],
-            pieces_len: 0,
+            whole: [(NONE, NONE); MOST],
+            whole_len: 0,
+            at: [[NONE; P]; P],
         };
-        layout.form_groups(live);
         layout.keep(live);
-        layout.cut(live);
+        layout.index();
+        layout.list_whole(live);
         layout
-    }
-
-    /// Group and place within it of a parameter.
-    pub const fn place(&self, parameter: usize) -> (usize, usize) {
-        let mut n = 0;
-        while self.members[n / self.width][n % self.width] != parameter {
-            n += 1;
-        }
-        (n / self.width, n % self.width)
-    }
-
-    /// Where row i keeps its number of column j, counted in numbers; `None` where only row j keeps it.
-    pub const fn index(&self, i: usize, j: usize) -> Option<usize> {
-        let (group, lane) = self.place(j);
-        match self.find(i, group) {
-            NONE => None,
-            n => Some(n * self.width + lane),
-        }
-    }
-
-    /// Parameters by the rows in which they are live, those of most rows first; a group never begins within such a class that
-    /// it could have held as a whole.
-    const fn form_groups<const N: usize>(&mut self, live: &[[bool; P]; N]) {
-        let (mut next, mut rows) = (0_usize, N + 1);
-        while rows > 0 {
-            rows -= 1;
-            let mut class = 0_usize;
-            while class < (1_usize << N) {
-                if class.count_ones() as usize == rows {
-                    let size = self.class_size(live, class);
-                    if !next.is_multiple_of(self.width) && size > self.width - next % self.width {
-                        next = next.next_multiple_of(self.width);
-                    }
-                    let mut parameter = 0;
-                    while parameter < P {
-                        // A width of 1 needs no classes.
-                        if self.width > 1 && class_of(live, parameter) == class {
-                            self.members[next / self.width][next % self.width] = parameter;
-                            next += 1;
-                        }
-                        parameter += 1;
-                    }
-                }
-                class += 1;
-            }
-        }
-        while self.width == 1 && next < P {
-            self.members[next][0] = next;
-            next += 1;
-        }
-        self.groups = next.div_ceil(self.width);
-    }
-
-    const fn class_size<const N: usize>(&self, live: &[[bool; P]; N], class: usize) -> usize {
-        let (mut size, mut parameter) = (0, 0);
-        while parameter < P {
-            if class_of(live, parameter) == class {
-                size += 1;
-            }
-            parameter += 1;
-        }
-        size
     }
 
     /// Chooses the vectors of each block: its rows or its columns, whichever are fewer.
@@ -131,10 +54,10 @@ impl<const P: usize> SymmetricLayout<P> {
         while a < self.groups {
             let mut b = a;
             while b < self.groups {
-                if self.count_meeting(live, a, b) <= self.count_meeting(live, b, a) {
-                    self.keep_block(live, a, b);
+                if self.count_rows(live, a, b) <= self.count_rows(live, b, a) {
+                    self.keep_rows(live, a, b);
                 } else {
-                    self.keep_block(live, b, a);
+                    self.keep_rows(live, b, a);
                 }
                 b += 1;
             }
@@ -142,93 +65,131 @@ impl<const P: usize> SymmetricLayout<P> {
         }
     }
 
-    /// How many parameters of one group share a row with any of another.
-    const fn count_meeting<const N: usize>(&self, live: &[[bool; P]; N], group: usize, other: usize) -> usize {
-        let (mut count, mut lane) = (0, 0);
-        while lane < self.width {
-            if self.meets(live, self.members[group][lane], other) {
-                count += 1;
-            }
-            lane += 1;
+    /// How many rows of group `rows` are live anywhere in the columns of `group`.
+    const fn count_rows<const N: usize>(&self, live: &[[bool; P]; N], rows: usize, group: usize) -> usize {
+        let (mut count, mut row) = (0, rows * self.width);
+        while row < (rows + 1) * self.width {
+            count += self.meets(live, row, group) as usize;
+            row += 1;
         }
         count
     }
 
-    const fn keep_block<const N: usize>(&mut self, live: &[[bool; P]; N], rows: usize, columns: usize) {
-        let mut lane = 0;
-        while lane < self.width {
-            let parameter = self.members[rows][lane];
-            if self.meets(live, parameter, columns) {
-                self.kept[self.kept_len] = (parameter, columns);
+    const fn keep_rows<const N: usize>(&mut self, live: &[[bool; P]; N], rows: usize, group: usize) {
+        let mut row = rows * self.width;
+        while row < (rows + 1) * self.width {
+            if self.meets(live, row, group) {
+                self.kept[self.kept_len] = (row, group);
                 self.kept_len += 1;
             }
-            lane += 1;
+            row += 1;
         }
     }
 
-    /// Whether row `parameter` is live anywhere in the columns of `group`.
-    const fn meets<const N: usize>(&self, live: &[[bool; P]; N], parameter: usize, group: usize) -> bool {
-        let (mut lane, mut meets) = (0, false);
-        while lane < self.width {
-            meets = meets || share_row(live, parameter, self.members[group][lane]);
-            lane += 1;
+    /// Whether a row is live anywhere in the columns of `group`.
+    const fn meets<const N: usize>(&self, live: &[[bool; P]; N], row: usize, group: usize) -> bool {
+        let (mut column, mut meets) = (group * self.width, false);
+        while column < (group + 1) * self.width {
+            // The last group may reach beyond the columns.
+            meets = meets || (row < P && column < P && share_row(live, row, column));
+            column += 1;
         }
         meets
     }
 
-    /// Which kept vector is row `parameter` in the columns of `group`.
-    const fn find(&self, parameter: usize, group: usize) -> usize {
+    const fn index(&mut self) {
         let mut n = 0;
-        while n < self.kept_len {
-            if self.kept[n].0 == parameter && self.kept[n].1 == group {
-                return n;
+        while n < self.kept_len * self.width {
+            let (row, group) = self.kept[n / self.width];
+            let column = group * self.width + n % self.width;
+            if column < P {
+                self.at[row][column] = n;
+                // Its twin may be kept too, and is then found for itself.
+                if self.at[column][row] == NONE {
+                    self.at[column][row] = n;
+                }
             }
             n += 1;
         }
-        NONE
     }
 
-    const fn cut<const N: usize>(&mut self, live: &[[bool; P]; N]) {
+    const fn list_whole<const N: usize>(&mut self, live: &[[bool; P]; N]) {
         let mut n = 0;
         while n < self.groups * P {
-            let (group, parameter) = (n / P, n % P);
-            if self.meets(live, parameter, group) {
-                self.pieces[self.pieces_len] = self.piece(parameter, group);
-                self.pieces_len += 1;
+            let (group, row) = (n / P, n % P);
+            if self.meets(live, row, group) {
+                self.whole[self.whole_len] = (row, group);
+                self.whole_len += 1;
             }
             n += 1;
         }
     }
+}
 
-    const fn piece(&self, parameter: usize, group: usize) -> Piece {
-        let mut piece = Piece { parameter, group, from: [NONE; MOST_PACKED], lane: NONE };
-        piece.from[0] = self.find(parameter, group);
-        if piece.from[0] == NONE {
-            let (column, lane) = self.place(parameter);
-            piece.lane = lane;
-            let mut n = 0;
-            while n < self.width {
-                piece.from[n] = self.find(self.members[group][n], column);
-                n += 1;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const P: usize = 9;
+    type Pattern = [[bool; P]; 3];
+
+    proptest! {
+        #[test]
+        fn every_live_entry_has_a_place_of_its_own(
+            live in prop::array::uniform3(prop::array::uniform9(any::<bool>())),
+            width in 1..=4_usize,
+        ) {
+            let layout = SymmetricLayout::<P>::new(&live, width);
+            // Which entries say that they are at each of the kept numbers.
+            let mut found = vec![Vec::new(); layout.kept_len * width];
+            for i in 0..P {
+                for j in 0..P {
+                    match layout.at[i][j] {
+                        NONE => prop_assert!(!share_row(&live, i, j), "({i}, {j}) is live and not kept"),
+                        n => found[n].push((i, j)),
+                    }
+                }
+            }
+            for (n, entries) in found.into_iter().enumerate() {
+                let ((row, group), column) = (layout.kept[n / width], layout.kept[n / width].1 * width + n % width);
+                prop_assert!(entries.iter().all(|&entry| entry == (row, column) || entry == (column, row)));
+                prop_assert_eq!(entries.contains(&(row, column)), column < P, "row {} of group {}", row, group);
             }
         }
-        piece
-    }
-}
 
-/// The rows in which a parameter is live, as bits.
-const fn class_of<const N: usize, const P: usize>(live: &[[bool; P]; N], parameter: usize) -> usize {
-    let (mut class, mut row) = (0, 0);
-    while row < N {
-        if live[row][parameter] {
-            class |= 1 << row;
+        #[test]
+        fn the_whole_matrix_is_live_where_its_rows_are(
+            live in prop::array::uniform3(prop::array::uniform9(any::<bool>())),
+            width in 1..=4_usize,
+        ) {
+            let layout = SymmetricLayout::<P>::new(&live, width);
+            let is_live = |&(group, row): &(usize, usize)| {
+                (group * width..P.min((group + 1) * width)).any(|column| share_row(&live, row, column))
+            };
+            let expected: Vec<_> = (0..P.div_ceil(width)).flat_map(|group| (0..P).map(move |row| (group, row))).collect();
+            let expected: Vec<_> = expected.into_iter().filter(is_live).map(|(group, row)| (row, group)).collect();
+            prop_assert_eq!(&layout.whole[..layout.whole_len], expected);
         }
-        row += 1;
-    }
-    class
-}
 
-/// Whether two parameters meet in a row, so that entry (i, j) of `YᵀY` can differ from zero.
-pub(super) const fn share_row<const N: usize, const P: usize>(live: &[[bool; P]; N], i: usize, j: usize) -> bool {
-    i != NONE && j != NONE && class_of(live, i) & class_of(live, j) != 0
+        #[test]
+        fn one_number_wide_it_is_the_upper_triangle(live in prop::array::uniform3(prop::array::uniform9(any::<bool>()))) {
+            let layout = SymmetricLayout::<P>::new(&live, 1);
+            let pairs: Vec<_> = (0..P).flat_map(|i| (i..P).map(move |j| (i, j))).collect();
+            let expected: Vec<_> = pairs.into_iter().filter(|&(i, j)| share_row(&live, i, j)).collect();
+            prop_assert_eq!(&layout.kept[..layout.kept_len], expected);
+        }
+    }
+
+    /// Of a block of which rows meet three columns in one, the one column is kept.
+    #[test]
+    fn the_shorter_way_across_a_block_is_kept() {
+        let live: Pattern = [
+            [false, true, true, true, true, false, false, false, false],
+            [true, false, false, false, false, false, false, false, false],
+            [false; P],
+        ];
+        let layout = SymmetricLayout::<P>::new(&live, 4);
+        assert_eq!(layout.kept[..layout.kept_len], [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (4, 1)]);
+    }
 }

@@ -11,15 +11,17 @@ use crate::control::{CoriolisVelocity, SlidingFeedback};
 use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
-use crate::lanes::{Number, WithNumber};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::OneOfFour;
 use crate::recording::{Columns, Recording};
 use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
-use crate::simulation::{AsNumbers, ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
+#[cfg(target_arch = "x86_64")]
+use crate::simulation::AsNumbers;
+use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
 use crate::trajectories::Remembered;
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
 use nalgebra::SVector;
-use std::marker::PhantomData;
 
 /// What the lanes of a scalar take their numbers from, one per lane; lanes behind the last repeat it.
 pub(super) struct Lanes<'a, D>(pub(super) &'a [D]);
@@ -76,15 +78,16 @@ pub(super) fn closed_loop<R: Robot<N, P>, T: Scalar, const N: usize, const P: us
     }
 }
 
-/// Builds the closed loop of one document, for the kind of number that this machine is fastest with.
-pub(super) struct Alone<'a, R, const N: usize, const P: usize>(pub &'a ScenarioDocument, pub PhantomData<R>);
-
-impl<R: Robot<N, P>, const N: usize, const P: usize> WithNumber for Alone<'_, R, N, P> {
-    type Output = Box<dyn StateSpace<f64>>;
-
-    fn with<T: Number>(self) -> Self::Output {
-        Box::new(AsNumbers(closed_loop::<R, T, N, P>(&[self.0])))
+/// The closed loop of one document alone, in the kind of number that this machine is fastest with.
+pub(super) fn closed_loop_alone<R: Robot<N, P>, const N: usize, const P: usize>(
+    document: &ScenarioDocument,
+) -> Box<dyn StateSpace<f64>> {
+    // The adaptive integrator weighs every state, so for it nothing may be kept twice or as padding.
+    #[cfg(target_arch = "x86_64")]
+    if document.integration.method == MethodDocument::Rk4 && OneOfFour::is_here() {
+        return Box::new(AsNumbers(closed_loop::<R, OneOfFour, N, P>(&[document])));
     }
+    closed_loop::<R, f64, N, P>(&[document])
 }
 
 /// Slotine and Li: measured velocity, gradient adaptation. Source: paper eq. (3) to (7).

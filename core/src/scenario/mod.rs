@@ -44,13 +44,11 @@ pub use validate::{LIMITS, Limits};
 
 use crate::decomposition::TorqueParts;
 use crate::diagnostics::{Diagnostics, Trace, diagnose};
-use crate::lanes::with_number;
 use crate::metrics::Metrics;
 use crate::recording::Recording;
 use crate::robots::{RobotData, for_robot};
 use crate::simulation::{Settings, Simulation, Snapshot, SnapshotError, StateSpace};
 use serde::{Deserialize, Deserializer};
-use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use tree::{Tree, TreeDeserializer};
 
@@ -296,7 +294,7 @@ impl Scenario {
             if beyond::is_beyond(&self.document) {
                 beyond::build::closed_loop::<R, N, P>(&self.document)
             } else {
-                with_number(build::Alone::<R, N, P>(&self.document, PhantomData))
+                build::closed_loop_alone::<R, N, P>(&self.document)
             }
         })
     }

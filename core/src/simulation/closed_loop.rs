@@ -80,13 +80,13 @@ where
 
     #[inline(always)]
     fn evaluate(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
-        if T::LANES == 1 { self.evaluate_apart(desired, x) } else { self.evaluate_within(desired, x) }
+        if T::IS_PLAIN { self.evaluate_apart(desired, x) } else { self.evaluate_within(desired, x) }
     }
 
     /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
     #[inline(never)]
     fn evaluate_apart(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
-        T::compiled(Evaluate { system: self, desired, x })
+        self.evaluate_within(desired, x)
     }
 
     #[inline(always)]
@@ -218,28 +218,6 @@ where
     fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T] {
         let layout = self.layout();
         &x[layout.theta_hat..layout.adaptation]
-    }
-}
-
-/// [`ClosedLoop::evaluate`], to be compiled for a kind of scalar.
-struct Evaluate<'a, S, T, const N: usize> {
-    system: &'a S,
-    desired: &'a Desired<T, N>,
-    x: &'a [T],
-}
-
-impl<R, V, A, T, const N: usize, const P: usize> Kernel for Evaluate<'_, ClosedLoop<R, V, A, T, N, P>, T, N>
-where
-    R: Robot<N, P>,
-    V: VelocitySource<T, N>,
-    A: AdaptationLaw<R, T, N, P>,
-    T: Scalar,
-{
-    type Output = Evaluation<R, T, N, P>;
-
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        self.system.evaluate_within(self.desired, self.x)
     }
 }
 

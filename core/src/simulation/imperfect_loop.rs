@@ -8,7 +8,6 @@
 
 use super::controller::{Action, Controller};
 use super::{InitialVelocity, StateSpace};
-use crate::adaptation::AdaptationLaw;
 use crate::dynamics::{Plant, solve_symmetric};
 use crate::effects::{Actuator, Elasticity, EncoderSide, Load, SampledControl, Sensing};
 use crate::recording::write_row;
@@ -16,7 +15,6 @@ use crate::robots::Robot;
 use crate::trajectories::{Desired, Remembered};
 use nalgebra::SVector;
 use std::cell::RefCell;
-use std::ops::Range;
 
 /// An arm with imperfections under control.
 pub struct ImperfectLoop<R, const N: usize, const P: usize> {
@@ -167,12 +165,6 @@ impl<R: Robot<N, P>, const N: usize, const P: usize> ImperfectLoop<R, N, P> {
         held[3 * N..4 * N].copy_from_slice(action.sliding.sliding_variable.as_slice());
     }
 
-    /// Where the adaptation law's states are, and how many they are when plain.
-    fn law(&self) -> (Range<usize>, usize) {
-        let layout = self.layout();
-        (layout.controller + self.controller.theta_hat() + P..layout.held, self.controller.adaptation.plain_states())
-    }
-
     fn continuous(&self, desired: &Desired<f64, N>, x: &[f64]) -> Option<Action<R, f64, N, P>> {
         if self.sampling.is_some() { None } else { Some(self.act(desired, x)) }
     }
@@ -186,25 +178,6 @@ fn vector<const N: usize>(x: &[f64]) -> SVector<f64, N> {
 impl<R: Robot<N, P>, const N: usize, const P: usize> StateSpace<f64> for ImperfectLoop<R, N, P> {
     fn len(&self) -> usize {
         self.layout().len
-    }
-
-    fn plain_len(&self) -> usize {
-        let (law, plain) = self.law();
-        self.len() - law.len() + plain
-    }
-
-    fn write_plain(&self, x: &[f64], plain: &mut [f64]) {
-        let (law, len) = self.law();
-        plain[..law.start].copy_from_slice(&x[..law.start]);
-        self.controller.adaptation.write_plain(&x[law.clone()], &mut plain[law.start..law.start + len]);
-        plain[law.start + len..].copy_from_slice(&x[law.end..]);
-    }
-
-    fn read_plain(&self, plain: &[f64], x: &mut [f64]) {
-        let (law, len) = self.law();
-        x[..law.start].copy_from_slice(&plain[..law.start]);
-        self.controller.adaptation.read_plain(&plain[law.start..law.start + len], &mut x[law.clone()]);
-        x[law.end..].copy_from_slice(&plain[law.start + len..]);
     }
 
     fn initialize(&self, x: &mut [f64]) {

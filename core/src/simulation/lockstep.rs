@@ -89,9 +89,9 @@ impl<T: Scalar> Lanes<T> {
         // Lanes that nobody hears any more compute what the first does.
         let source =
             |lane: usize| if snapshots.get(lane).is_some_and(|it| it.outcome.is_none()) { lane } else { first };
-        let state_of = |n: usize| T::from_lanes(|lane| snapshots[source(lane)].state[n]);
-        let plain: Vec<T> = (0..lanes.system.plain_len()).map(state_of).collect();
-        lanes.system.read_plain(&plain, &mut lanes.state);
+        for (n, state) in lanes.state.iter_mut().enumerate() {
+            *state = T::from_lanes(|lane| snapshots[source(lane)].state[n]);
+        }
         (lanes.step, lanes.time_s) = (step, time_s);
         for (run, Snapshot { step, time_s, state, rows, outcome, .. }) in lanes.runs.iter_mut().zip(snapshots) {
             run.recorder.recording = Recording::from_rows(settings.columns, rows)?;
@@ -166,7 +166,7 @@ impl<T: Scalar> Lanes<T> {
 
     /// Ends a run, in its state now or before the last step.
     fn end(&mut self, lane: usize, outcome: Outcome, before: bool) {
-        let state = lane_of(&self.system.plain(if before { self.rk4.before() } else { &self.state }), lane);
+        let state = lane_of(if before { self.rk4.before() } else { &self.state }, lane);
         self.runs[lane].end = Some(End { outcome, step: self.step, time_s: self.time_s, state });
     }
 }
@@ -195,8 +195,7 @@ impl<T: Scalar> Lockstep for Lanes<T> {
     }
 
     fn snapshots(self: Box<Self>) -> Vec<Snapshot> {
-        let Self { system, runs, settings, step, time_s, state, .. } = *self;
-        let state = system.plain(&state);
+        let Self { runs, settings, step, time_s, state, .. } = *self;
         let evaluations_per_step = 4;
         let snapshot = |(lane, run): (usize, LaneRun)| {
             let (outcome, step, time_s, state) = match run.end {

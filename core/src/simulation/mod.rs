@@ -3,17 +3,18 @@
 //! Stepping sees only a [`StateSpace`]; [`ClosedLoop`] is the one that a robot and a scheme make. Knows nothing of scenarios.
 //! A diverging run is an [`Outcome`], not an error.
 
+#[cfg(target_arch = "x86_64")]
 mod as_numbers;
 mod closed_loop;
 mod controller;
 mod imperfect_loop;
 mod lockstep;
 mod outcome;
-mod plain;
 mod recorder;
 mod run;
 mod snapshot;
 
+#[cfg(target_arch = "x86_64")]
 pub(crate) use as_numbers::AsNumbers;
 pub use closed_loop::{ClosedLoop, InitialVelocity};
 pub use controller::Controller;

@@ -1,6 +1,5 @@
 //! Advancing a run: steps, samples at their exact times, divergence, pause and resume.
 
-use super::plain::Plain;
 use super::recorder::Recorder;
 use super::{Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, TRACKING_ERROR_LIMIT_RAD};
 use crate::integrators::{Dopri5, Rk4};
@@ -38,10 +37,6 @@ pub struct Simulation {
 impl Simulation {
     /// A run at its start. `identity` names what is simulated in snapshots.
     pub fn new(identity: String, system: Box<dyn StateSpace<f64>>, settings: Settings) -> Self {
-        let system: Box<dyn StateSpace<f64>> = match settings.method {
-            Method::Dopri5(_) if system.plain_len() != system.len() => Box::new(Plain::new(system)),
-            _ => system,
-        };
         let len = system.len();
         let stepper = match settings.method {
             Method::Rk4 => match settings.steps_per_sample() {
