@@ -181,7 +181,7 @@ mod tests {
         }
     }
 
-    /// Of a block of which rows meet three columns in one, the one column is kept.
+    /// Three rows meet one column: that column is kept, as a row of the other half.
     #[test]
     fn the_shorter_way_across_a_block_is_kept() {
         let live: Pattern = [

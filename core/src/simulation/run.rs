@@ -224,8 +224,8 @@ impl Simulation {
         let is_sampled = self.sample_on_grid()?;
         let start_s = self.time_s;
         self.before.copy_from_slice(&self.state);
-        let is_finite;
-        (self.time_s, is_finite) = self.integrate(start_s, is_sampled)?;
+        let (end_s, is_finite) = self.integrate(start_s, is_sampled)?;
+        self.time_s = end_s;
         self.step += 1;
         self.check(is_finite)
             .and_then(|()| self.sample(start_s, self.time_s))
