@@ -132,11 +132,15 @@ fn a_run_left_alone_goes_on_in_a_lane_and_alone_again() {
         let members: Vec<_> = scenarios.iter().collect();
         for &width in lanes::widths().iter().filter(|&&width| width > 1) {
             let mut alone: Vec<_> = scenarios.iter().map(Scenario::start).collect();
-            alone.iter_mut().for_each(|run| assert!(!run.advance(100)));
+            for run in &mut alone {
+                assert!(!run.advance(100));
+            }
             let snapshots = alone.iter().map(Simulation::snapshot).collect();
             let mut together = SideBySide::resume(&members, width, snapshots).unwrap();
             together.advance(100);
-            alone.iter_mut().for_each(|run| assert!(!run.advance(100)));
+            for run in &mut alone {
+                assert!(!run.advance(100));
+            }
             let snapshots = together.snapshots();
             for ((scenario, snapshot), run) in scenarios.iter().zip(snapshots).zip(&alone) {
                 assert!(snapshot == run.snapshot(), "{} in {width} lanes", scheme.id());
