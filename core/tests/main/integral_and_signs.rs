@@ -104,13 +104,13 @@ fn each_sign_is_that_of_its_term() {
 
 /// Slotine and Li's controller of a pendulum of inertia I, without friction or weight, that knows I and does not learn; with
 /// `κ = K_s/I`.
-fn frozen(signs: SignsDocument) -> ScenarioDocument {
+fn frozen(signs: &SignsDocument) -> ScenarioDocument {
     let gains = SlotineLiGains { k_s: vec![KAPPA * INERTIA], lambda: vec![LAMBDA], gamma_adapt: vec![1.0; 4] };
     let mut document = held(SchemeDocument::SlotineLi(Some(gains)));
-    let only_inertia = Some(vec![1.0, 0.0, 0.0, 0.0]);
-    document.plant.theta_scale = only_inertia.clone();
-    document.effects = Some(EffectsDocument { theta_hat_scale: only_inertia, ..Default::default() });
-    document.signs = Some(SignsDocument { adaptation: Some(0.0), ..signs });
+    let only_inertia = || Some(vec![1.0, 0.0, 0.0, 0.0]);
+    document.plant.theta_scale = only_inertia();
+    document.effects = Some(EffectsDocument { theta_hat_scale: only_inertia(), ..Default::default() });
+    document.signs = Some(SignsDocument { adaptation: Some(0.0), ..signs.clone() });
     (document.integration.duration_s, document.recording.samples) = (1.5, 150);
     document
 }
@@ -124,7 +124,7 @@ const LAMBDA: f64 = 2.0;
 #[test]
 fn turned_feedback_and_reference_run_along_their_closed_forms() {
     for (f, r) in [(1.0, 1.0), (-1.0, 1.0), (0.0, 1.0), (0.5, 1.0), (1.0, -1.0), (1.0, -0.3), (-1.0, -1.0)] {
-        let mut document = frozen(SignsDocument { feedback: Some(f), reference: Some(r), ..Default::default() });
+        let mut document = frozen(&SignsDocument { feedback: Some(f), reference: Some(r), ..Default::default() });
         document.trajectory.sine_deg = Some(vec![vec![2.0]]);
         document.initial.velocity = InitialVelocityDocument::Rest;
         let run = run(document);
@@ -152,7 +152,7 @@ fn turned_feedback_and_reference_run_along_their_closed_forms() {
 fn a_turned_model_takes_damping_away() {
     let push = 0.5;
     for m in [-1.0_f64, -0.5] {
-        let mut document = frozen(SignsDocument { model: Some(m), ..Default::default() });
+        let mut document = frozen(&SignsDocument { model: Some(m), ..Default::default() });
         let disturbance = DisturbanceDocument { constant_nm: Some(vec![push]), ..Default::default() };
         document.effects.as_mut().unwrap().disturbance = Some(disturbance);
         let half = 0.5 * (m * LAMBDA + KAPPA);

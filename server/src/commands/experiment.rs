@@ -56,7 +56,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let outcome = work(&experiment, &settings).map_err(|error| match error.downcast_ref::<Refused>() {
         Some(Refused::Checkpoint(CheckpointError::Damaged(_))) | None => Failure::chain(error),
-        Some(refused @ (Refused::Checkpoint(_) | Refused::Objective(_))) => Failure::input(refused),
+        Some(refused @ (Refused::Checkpoint(_) | Refused::Objective(_) | Refused::Occupied(_))) => {
+            Failure::input(refused)
+        }
     })?;
     Ok(print(&(serde_json::to_string_pretty(&outcome).map_err(Failure::system)? + "\n"))?)
 }

@@ -1,19 +1,20 @@
 //! What an experiment leaves, on disk or over HTTP: the experiment with everything filled in, `summary.json`, a row per run as
 //! CSV and Parquet; of a tuning, the best scenario, its generations and its Pareto front; of a replication, its report.
 
-use super::Picture;
 use super::checkpoint::{replace, replace_by};
 use super::search_report;
+use super::{Picture, Refused};
+use crate::document::parse;
 use crate::figures::PictureFormat;
 use crate::series::parquet;
 use adaptarm_core::experiments::replication::ReplicationSummary;
 use adaptarm_core::experiments::{
     Experiment, ExperimentKind, Front, Place, Results, Row, RowOutcome, RowStoreError, Summary, Tuning, TuningSummary,
 };
-use anyhow::Result;
+use anyhow::{Context, Result};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// What is known of an experiment, at its end or on the way there.
@@ -156,6 +157,22 @@ impl File {
         };
         out.write_all(&bytes)?;
         Ok(true)
+    }
+}
+
+/// Says in a folder which experiment it is for; refuses one that is for another.
+pub(super) fn take(experiment: &Experiment, folder: &Path) -> Result<()> {
+    let path = folder.join(File::Experiment.name());
+    match std::fs::read(&path) {
+        Ok(earlier) => {
+            let earlier = parse(&earlier).ok().and_then(|document| Experiment::new(document).ok());
+            if earlier.is_some_and(|earlier| earlier.hash() == experiment.hash()) {
+                return Ok(());
+            }
+            Err(Refused::Occupied(folder.to_owned()).into())
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => replace(&path, &json(experiment.document())?),
+        Err(error) => Err(error).with_context(|| format!("cannot read {}", path.display())),
     }
 }
 

@@ -61,6 +61,9 @@ pub enum Refused {
     /// Its objective cannot be measured.
     #[error(transparent)]
     Objective(#[from] TuningError),
+    /// The folder for its results holds those of another.
+    #[error("--out: {} holds another experiment's results: give another folder, or remove it", .0.display())]
+    Occupied(PathBuf),
 }
 
 /// Works on an experiment to its end.
@@ -70,6 +73,7 @@ pub fn run(experiment: &Experiment, settings: &Settings) -> Result<Outcome> {
     // Before hours of simulation rather than after them.
     if let Some(folder) = &settings.out {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        files::take(experiment, folder)?;
     }
     let folder = settings.out.as_deref();
     let Some(start) = experiment.tuning() else {

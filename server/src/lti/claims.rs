@@ -175,25 +175,7 @@ impl Claims {
         now_s: i64,
     ) -> Result<Launch, Refusal> {
         self.check_time_and_audience(platform, now_s)?;
-        if !self.nonce.as_deref().is_some_and(|own| equal(own, nonce)) {
-            return Err(Refusal::new("nonce", "the launch answers another login"));
-        }
-        if self.version.as_deref() != Some("1.3.0") {
-            let found = said(self.version.as_deref());
-            return Err(Refusal::new("version", format!("the launch speaks LTI {found}; 1.3.0 is spoken here")));
-        }
-        let deployment = named(self.deployment.as_deref(), "deployment_id")?;
-        if !platform.deployments.contains(&deployment) {
-            let found = said(Some(&deployment));
-            return Err(Refusal::new("deployment", format!("the deployment {found} is not registered here")));
-        }
-        let target = self.target.as_deref().ok_or_else(|| Refusal::new("target", "the launch has no target link"))?;
-        if !is_ours(target, base) || !state.is_for(target) {
-            return Err(Refusal::new(
-                "target",
-                "the target link is another tool's, or not the one that the login named",
-            ));
-        }
+        let deployment = self.check_origin(platform, state, nonce, base)?;
         let subject = named(self.sub.as_deref(), "sub")?;
         let role = role(&self.roles).ok_or_else(|| {
             Refusal::new("role", "only those who teach or attend a course come in; the launch names no such role")
@@ -216,6 +198,30 @@ impl Claims {
             context,
             title,
         })
+    }
+
+    /// Whether it answers the login that was begun, from a deployment that is let in and for a link of ours; the deployment.
+    fn check_origin(&self, platform: &Platform, state: &State, nonce: &str, base: &str) -> Result<String, Refusal> {
+        if !self.nonce.as_deref().is_some_and(|own| equal(own, nonce)) {
+            return Err(Refusal::new("nonce", "the launch answers another login"));
+        }
+        if self.version.as_deref() != Some("1.3.0") {
+            let found = said(self.version.as_deref());
+            return Err(Refusal::new("version", format!("the launch speaks LTI {found}; 1.3.0 is spoken here")));
+        }
+        let deployment = named(self.deployment.as_deref(), "deployment_id")?;
+        if !platform.deployments.contains(&deployment) {
+            let found = said(Some(&deployment));
+            return Err(Refusal::new("deployment", format!("the deployment {found} is not registered here")));
+        }
+        let target = self.target.as_deref().ok_or_else(|| Refusal::new("target", "the launch has no target link"))?;
+        if !is_ours(target, base) || !state.is_for(target) {
+            return Err(Refusal::new(
+                "target",
+                "the target link is another tool's, or not the one that the login named",
+            ));
+        }
+        Ok(deployment)
     }
 
     fn check_time_and_audience(&self, platform: &Platform, now_s: i64) -> Result<(), Refusal> {

@@ -60,6 +60,8 @@ fn kill(file: &Path, out: &Path) -> Result<bool> {
         ensure!(started.elapsed() < Duration::from_mins(2), "nothing was kept");
         std::thread::sleep(Duration::from_millis(20));
     }
+    // It is there before the first rows are.
+    std::thread::sleep(Duration::from_secs(1));
     child.kill()?;
     child.wait()?;
     Ok(!out.join("summary.json").exists())
@@ -84,6 +86,23 @@ fn killed_and_resumed_with_other_threads_the_files_are_the_same() -> Result<()> 
     // Resuming what is done changes nothing.
     summary(&command(&file, &["--resume"], &broken)?.output()?)?;
     assert!(files(&broken)? == straight);
+    Ok(())
+}
+
+#[test]
+fn a_folder_of_another_experiment_is_left_alone() -> Result<()> {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let file = write(folder.path(), &monte_carlo(2, 0.1))?;
+    summary(&command(&file, &[], &out)?.output()?)?;
+    let earlier = files(&out)?;
+    let other = write(folder.path(), &monte_carlo(3, 0.1))?;
+    let said = refusal(&command(&other, &[], &out)?.output()?, 2)?;
+    assert!(said.contains("--out") && said.contains("another experiment's results"), "{said}");
+    assert!(files(&out)? == earlier);
+    let same = write(folder.path(), &monte_carlo(2, 0.1))?;
+    summary(&command(&same, &[], &out)?.output()?)?;
+    assert!(files(&out)? == earlier);
     Ok(())
 }
 
@@ -163,7 +182,7 @@ fn what_is_wrong_is_said_on_one_line() -> Result<()> {
     assert!(!out.exists(), "a wrong experiment leaves nothing");
 
     summary(&command(&write(folder.path(), &monte_carlo(2, 0.1))?, &[], &out)?.output()?)?;
-    assert!(refused(&monte_carlo(3, 0.1), &["--resume"], 2)?.contains("is of another experiment"));
+    assert!(refused(&monte_carlo(3, 0.1), &["--resume"], 2)?.contains("another experiment's results"));
     fs::write(out.join("checkpoint.bin"), "nonsense")?;
     assert!(refused(&monte_carlo(2, 0.1), &["--resume"], 1)?.contains("is damaged"));
     let missing = command(&folder.path().join("nowhere.json"), &[], &out)?.output()?;
