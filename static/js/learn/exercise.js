@@ -92,7 +92,7 @@ export class ExerciseView {
     const gains = this.#remembered();
     this.#gains = gains;
     this.#moves = new Moves(exercise.moves, gains, (wanted, move) => this.#change(wanted, move));
-    this.#panel = new SubmitPanel(this.#submission, () => this.#moves.read());
+    this.#panel = new SubmitPanel(this.#submission, this.#moves);
     this.#history = new Attempts(this.#assignment.points, (earlier) => this.#takeBack(earlier));
     this.#board = leaderboardCard(this.#assignment);
     const pinned = element("section", { class: "pinned", "aria-label": strings.pinnedFigure });

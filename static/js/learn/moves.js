@@ -44,6 +44,11 @@ export class Moves {
     }
   }
 
+  /** The first field whose text was refused, or null: what it shows is not what `read()` has. */
+  get refused() {
+    return [...this.#fields.values()].find(({ isRefused }) => isRefused) ?? null;
+  }
+
   /** What was last accepted, by name. */
   read() {
     return { ...this.#gains };

@@ -68,6 +68,7 @@ export const learn = {
 
   submit: {
     submit: "Hand in",
+    mend: "Nothing was handed in, and no attempt is used: one of the numbers above cannot be taken. Mend it first.",
     progress: "Grading",
     sending: "Sending…",
     grading: (percent) => `Grading on hidden variants, ${percent} %`,

@@ -68,6 +68,7 @@ export const learn = {
 
   submit: {
     submit: "Entregar",
+    mend: "No se ha entregado nada ni se ha gastado un intento: uno de los números de arriba no se admite. Corríjalo primero.",
     progress: "Calificación",
     sending: "Enviando…",
     grading: (percent) => `Calificando con variantes ocultas, ${percent} %`,
