@@ -31,6 +31,8 @@ const root = document.documentElement;
 export class ExerciseView {
   node = element("div", { class: "class-view exercise-view" });
   #id;
+  /** Where the gains are kept: other people may use this browser, too. */
+  #storage;
   #assignment;
   #attempts = [];
   #preview;
@@ -52,6 +54,7 @@ export class ExerciseView {
 
   constructor(id) {
     this.#id = id;
+    this.#storage = `classroom.gains.${client.session.id}.${id}`;
     this.#submission = new Submission(id);
     this.node.append(element("p", {}, element("a", { class: "back", href: "#" }, `← ${texts.list.title}`)), this.#head, this.#failure);
   }
@@ -85,6 +88,15 @@ export class ExerciseView {
     this.#stopped = true;
     this.#submission.stop();
     this.#bench?.stop();
+  }
+
+  /** The student had been signed out and is back. */
+  resume() {
+    if (root.dataset.state === "failed") {
+      this.start();
+    } else {
+      this.#submission.goOn();
+    }
   }
 
   #build(core) {
@@ -127,10 +139,6 @@ export class ExerciseView {
     } catch {
       return start;
     }
-  }
-
-  get #storage() {
-    return `classroom.gains.${this.#id}`;
   }
 
   /** Tries gains; returns null, or what the core says against them. */

@@ -60,7 +60,7 @@ export class SubmitPanel {
     }
     if (!error) {
       this.#failure.replaceChildren();
-    } else if (phase === "unsent" && error.isPassing) {
+    } else if (this.#submission.isKept) {
       showError(this.#failure, error, () => this.#submission.retry());
       const forget = element("button", { type: "button", class: "quiet", onclick: () => this.#submission.forget() }, own.forget);
       this.#failure.querySelector(".message-actions").append(forget);

@@ -25,6 +25,15 @@ export const shared = {
     kept: "I have kept the link",
   },
 
+  comeBack: {
+    title: "Your session has ended",
+    what: "What you were doing is still here, behind this window. Sign in again as the same person and go on: what you were handing in is sent then.",
+    noWayIn: "Neither link nor password? Your teacher can give you a new link. Joining again would make you a second student.",
+    elsewhere: "I have signed in in another tab",
+    notYet: "This browser is not signed in yet.",
+    giveUp: "Leave this and start anew",
+  },
+
   errors: {
     unexpected: (what) => `Something went wrong in this page: ${what}`,
     offline: "You are offline. The classroom needs its server; what you have set here stays.",

@@ -25,6 +25,15 @@ export const shared = {
     kept: "Ya he guardado el enlace",
   },
 
+  comeBack: {
+    title: "La sesión ha terminado",
+    what: "Lo que estaba haciendo sigue aquí, detrás de esta ventana. Vuelva a entrar como la misma persona y continúe: lo que estaba entregando se envía entonces.",
+    noWayIn: "¿Ni enlace ni contraseña? Su docente puede darle un enlace nuevo. Unirse otra vez le convertiría en un segundo estudiante.",
+    elsewhere: "Ya he entrado en otra pestaña",
+    notYet: "Este navegador todavía no ha entrado.",
+    giveUp: "Dejar esto y empezar de nuevo",
+  },
+
   errors: {
     unexpected: (what) => `Algo ha fallado en esta página: ${what}`,
     offline: "Sin conexión. El aula necesita su servidor; lo que ha ajustado aquí se conserva.",
