@@ -10,6 +10,7 @@ import { card, facts, points, pointsOf, showError } from "../classroom/parts.js"
 import { momentElement } from "../classroom/times.js";
 import { element } from "../dom.js";
 import { parseTyped } from "../format.js";
+import { refusal } from "../refusal.js";
 import { load, save } from "../storage.js";
 import { localized, texts } from "../strings/classroom.js";
 import { strings } from "../strings/index.js";
@@ -112,8 +113,8 @@ export class ExerciseView {
       "aside",
       { class: "controls", "aria-label": own.controls },
       pinned,
-      card(own.gains, this.#moves.node, this.#resetButton(exercise)),
-      card(own.worth, this.#total, this.#feedback, this.#panel.node),
+      card(own.gains, this.#moves.node, this.#resetButton(exercise), this.#total, this.#panel.node),
+      card(own.worth, this.#feedback),
       card(own.attempts, this.#history.node),
     );
     const figures = figurePlace(own.figures);
@@ -151,7 +152,8 @@ export class ExerciseView {
       this.#run(gains, this.#preview.documents(gains));
       return null;
     } catch (error) {
-      return failureOf(error).message;
+      const failure = failureOf(error);
+      return failure.pointer.endsWith(`/${move.name}`) ? refusal(failure, localized(move.label)) : failure.message;
     }
   }
 
