@@ -42,7 +42,10 @@ export class ClassPage {
     fillTexts({ ...strings, ...texts });
     document.addEventListener("click", (event) => jump(event));
     addEventListener("hashchange", () => this.#moved());
-    addEventListener("online", () => this.#online());
+    addEventListener("online", () => {
+      this.#online();
+      this.#again();
+    });
     addEventListener("offline", () => this.#online());
   }
 
@@ -140,6 +143,15 @@ export class ClassPage {
       failure,
       element("div", { class: "actions" }, element("a", { class: "button", href: target }, texts.toOwnPage), signOutButton(failure)),
     );
+  }
+
+  /** What could not be shown without a connection is asked for anew. */
+  #again() {
+    if (this.#shown) {
+      this.#shown.resume?.();
+    } else if (root.dataset.state === "failed") {
+      this.start();
+    }
   }
 
   /** The classroom is the server's; without it the page can only say so. */

@@ -46,7 +46,7 @@ export class View {
     this.#stopped = true;
   }
 
-  /** Whoever it is for had been signed out and is back: what was typed is still here, what could not be had is asked for anew. */
+  /** Whoever it is for had been signed out, or without a connection, and is back: what was typed is still here, what could not be had is asked for anew. */
   resume() {
     if (root.dataset.state === "failed") {
       this.start();

@@ -91,7 +91,7 @@ export class ExerciseView {
     this.#bench?.stop();
   }
 
-  /** The student had been signed out and is back. */
+  /** The student had been signed out, or without a connection, and is back. */
   resume() {
     if (root.dataset.state === "failed") {
       this.start();
