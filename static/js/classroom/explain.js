@@ -39,6 +39,15 @@ export function explain(error) {
     case "rate-limit":
       return errors.tooOften(retryAfter);
     default:
-      return status === 404 ? errors.notFound : status === 422 ? errors.refused(error.message) : errors.other(status, error.message);
+      return status === 404 ? errors.notFound : status === 422 ? unacceptable(error.message) : errors.other(status, error.message);
   }
+}
+
+/** What is out of its range, in the reader's words; the server's own for the rest. */
+function unacceptable(message) {
+  const [, value, min, max, unit] = /: (\S+) is outside the allowed range (\S+) to (\S+)(?: (\S+))?$/u.exec(message) ?? [];
+  if (value === undefined) {
+    return errors.refused(message);
+  }
+  return unit === "characters" ? errors.length(value, min, max) : errors.outOfRange(value, min, max);
 }

@@ -1,6 +1,7 @@
 // Forms: labelled fields, one button, and what the server found wrong said at the field that it is about.
 
 import { element } from "../dom.js";
+import { explain } from "./explain.js";
 import { showError } from "./parts.js";
 
 let forms = 0;
@@ -54,7 +55,7 @@ export function form({ id, groups, submit, act, primary = true }) {
     const { pointer } = error.problem ?? {};
     const wrong = pointer ? fields.find((one) => pointer === one.pointer || pointer.startsWith(`${one.pointer}/`)) : null;
     if (wrong) {
-      refuse(wrong, error.message);
+      refuse(wrong, explain(error));
       wrong.input.focus();
     } else {
       showError(failure, error, error.isPassing ? send : null);

@@ -51,6 +51,8 @@ export const shared = {
     full: (most) => `There is room for ${most}, and they are all there.`,
     tooOften: (seconds) => (seconds === null ? "Too many tries. Wait a little." : `Too many tries. Wait ${seconds} s.`),
     notFound: "There is no such thing here, or it is not yours.",
+    length: (length, min, max) => (length === "0" ? "Something must stand here." : `From ${min} to ${max} characters; here are ${length}.`),
+    outOfRange: (value, min, max) => `This must be between ${min} and ${max}; ${value} is not.`,
     refused: (why) => `The server did not accept this: ${why}.`,
     other: (status, why) => `The server answered with an error (${status}): ${why}`,
   },

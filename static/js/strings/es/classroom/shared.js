@@ -51,6 +51,8 @@ export const shared = {
     full: (most) => `Hay sitio para ${most}, y ya están todos.`,
     tooOften: (seconds) => (seconds === null ? "Demasiados intentos. Espere un poco." : `Demasiados intentos. Espere ${seconds} s.`),
     notFound: "Aquí no hay tal cosa, o no es suya.",
+    length: (length, min, max) => (length === "0" ? "Aquí debe haber algo escrito." : `De ${min} a ${max} caracteres; aquí hay ${length}.`),
+    outOfRange: (value, min, max) => `Debe estar entre ${min} y ${max}; ${value} no lo está.`,
     refused: (why) => `El servidor no ha aceptado esto: ${why}.`,
     other: (status, why) => `El servidor respondió con un error (${status}): ${why}`,
   },
