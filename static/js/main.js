@@ -49,7 +49,15 @@ async function main() {
   const { bindings, module } = loaded;
   const description = translated(JSON.parse(bindings.describe()));
   learnNames(description);
-  const check = (scenario) => bindings.check(JSON.stringify(scenario));
+  const [own, ...others] = description.robots;
+  const check = (scenario) => {
+    // The core takes any robot; sliders, tables and the drawn arm are the first one's.
+    const other = others.find(({ id }) => id === scenario.robot);
+    if (other) {
+      throw new Error(strings.errors.otherRobot(other.name, own.name));
+    }
+    return bindings.check(JSON.stringify(scenario));
+  };
   for (const study of description.studies) {
     study.hashes = Object.fromEntries(Object.entries(study.documents).map(([id, scenario]) => [id, check(scenario)]));
   }

@@ -28,9 +28,9 @@ export function learnNames({ schemes, robots }) {
   parameters = robots[0].parameters.map(({ symbol }) => symbol);
 }
 
-/** The sentence for a failure `{pointer, message, problem}`; the core's own message where there is nothing better. */
-export function refusal({ pointer, message, problem }) {
-  const name = nameOf(pointer);
+/** The sentence for a failure `{pointer, message, problem}`, by the field's own name or the one given; the core's own message where
+ * there is nothing better. */
+export function refusal({ pointer, message, problem }, name = nameOf(pointer)) {
   switch (problem?.problem) {
     case "out_of_range": {
       const [value, min, max] = [problem.value, problem.min, problem.max].map(formatExact);

@@ -24,6 +24,7 @@ const PAGE: &str = r#"<!doctype html>
 <link rel="icon" href="data:,">
 </head>
 <body>
+<nav aria-label="adaptarm"><a href="/">← adaptarm</a></nav>
 <main id="swagger-ui"></main>
 <noscript>This page needs JavaScript; the document behind it is <a href="/api/v1/openapi.json">openapi.json</a>.</noscript>
 <script src="/api/docs/swagger-ui-bundle.js"></script>

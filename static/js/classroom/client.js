@@ -11,6 +11,8 @@ const NOBODY = { role: null };
 class Client extends EventTarget {
   /** Who is signed in, as the server said it; `{role: null}` for nobody. */
   session = NOBODY;
+  /** Whether there was a session that ended without anybody here ending it. */
+  isLost = false;
 
   /** Asks the server who is signed in. */
   async load() {
@@ -31,7 +33,7 @@ class Client extends EventTarget {
     this.leave();
   }
 
-  /** Forgets the session, which has ended elsewhere. */
+  /** Forgets the session. */
   leave() {
     this.#enter(NOBODY);
   }
@@ -71,17 +73,18 @@ class Client extends EventTarget {
       return await act();
     } catch (error) {
       if (error.kind === "session") {
-        this.leave();
+        this.#enter(NOBODY, true);
       }
       throw error;
     }
   }
 
-  #enter(session) {
+  #enter(session, isLost = false) {
     // The key is shown once, by whoever began the session; nothing else keeps it.
     const { key, link, ...rest } = session;
     const other = rest.id !== this.session.id || rest.role !== this.session.role;
     this.session = rest;
+    this.isLost = isLost && (other || this.isLost);
     if (other) {
       this.dispatchEvent(new Event("session"));
     }

@@ -52,6 +52,10 @@ export function explain(error) {
       return errors.full(problem.most);
     case "rate-limit":
       return errors.tooOften(retryAfter);
+    case "out-of-range": {
+      const { value, min, max, unit } = problem;
+      return unit === "characters" ? errors.length(value, min, max) : errors.outOfRange(value, min, max);
+    }
     default:
       return status === 404 ? errors.notFound : status === 422 ? errors.refused(error.message) : errors.other(status, error.message);
   }

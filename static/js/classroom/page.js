@@ -1,6 +1,7 @@
 // What the pages of students and teachers share: the session, the head with name and way out, and which view is shown.
 //
-// A view has `node`, `start()` and `stop()`, and focuses its own heading. `data-state` of the document tells how the page
+// A view has `node`, `start()`, `stop()` and, where it is somebody's own, `resume()` for when their session had ended and they are
+// back; it focuses its own heading. `data-state` of the document tells how the page
 // stands: loading, ready, failed; `data-view` which view it is.
 
 import { byId, element, fillTexts } from "../dom.js";
@@ -12,6 +13,7 @@ import { signOutButton } from "./account.js";
 import { client } from "./client.js";
 import { forgetInvitation, keptInvitation, takeSecret } from "./entry.js";
 import { showError } from "./parts.js";
+import { ComeBack } from "./sign-in.js";
 
 const root = document.documentElement;
 
@@ -31,6 +33,10 @@ export class ClassPage {
   #other;
   #shown = null;
   #secret = null;
+  /** Who is shown what is theirs, by identifier, or null. */
+  #person = null;
+  /** Asks whose session has ended to come back, or null. */
+  #comeBack = null;
   #isFirst = true;
   #place = byId("content");
   #who = byId("who");
@@ -45,7 +51,10 @@ export class ClassPage {
     fillTexts({ ...strings, ...texts });
     document.addEventListener("click", (event) => jump(event));
     addEventListener("hashchange", () => this.#moved());
-    addEventListener("online", () => this.#online());
+    addEventListener("online", () => {
+      this.#online();
+      this.#again();
+    });
     addEventListener("offline", () => this.#online());
   }
 
@@ -62,24 +71,41 @@ export class ClassPage {
       showError(failure, error, () => this.start());
       return;
     }
-    client.addEventListener("session", () => this.route());
+    client.addEventListener("session", () => this.#sessionChanged());
     this.route();
+  }
+
+  /** Somebody came or went. Whoever was sent away keeps what they were doing until they are back or give it up. */
+  #sessionChanged() {
+    if (client.isLost && this.#person !== null) {
+      this.#comeBack ??= new ComeBack(() => this.route(), this.#role);
+    } else if (this.#comeBack && client.session.id === this.#person) {
+      this.#comeBack.close();
+      this.#comeBack = null;
+      this.#shown.resume();
+    } else {
+      this.route();
+    }
   }
 
   /** Shows what the session and the address ask for. */
   route() {
+    this.#comeBack?.close();
+    this.#comeBack = null;
     this.#shown?.stop();
     const { session } = client;
     this.#head(session);
     root.dataset.state = "loading";
     if (session.role !== null && session.role !== this.#role && !this.#secret) {
       this.#shown = null;
+      this.#person = null;
       root.dataset.view = "other";
       this.#place.replaceChildren(this.#otherRole());
       root.dataset.state = "ready";
       return;
     }
     const isEntry = session.role !== this.#role || this.#secret !== null;
+    this.#person = isEntry ? null : session.id;
     const place = placeIn(location.hash);
     this.#shown = isEntry ? this.#enter(this, this.#secret) : this.#view(place, this);
     root.dataset.view = isEntry ? "enter" : place.split("/")[0] || "home";
@@ -127,6 +153,15 @@ export class ClassPage {
       failure,
       element("div", { class: "actions" }, element("a", { class: "button", href: target }, texts.toOwnPage), signOutButton(failure)),
     );
+  }
+
+  /** What could not be shown without a connection is asked for anew. */
+  #again() {
+    if (this.#shown) {
+      this.#shown.resume?.();
+    } else if (root.dataset.state === "failed") {
+      this.start();
+    }
   }
 
   /** The classroom is the server's; without it the page can only say so. */

@@ -1,10 +1,11 @@
 // What the ways in for students and teachers share: a personal link that is opened or pasted, login and password, and the
-// new link that is shown once.
+// new link that is shown once. Also the way back in for whoever's session ended while they were at work.
 
 import { element } from "../dom.js";
 import { texts } from "../strings/classroom.js";
 import { client } from "./client.js";
-import { field, form } from "./form.js";
+import { secretIn } from "./entry.js";
+import { actionButton, field, form } from "./form.js";
 import { secretLink, showError } from "./parts.js";
 
 const own = texts.enter;
@@ -68,6 +69,17 @@ export class SignInView {
     root.dataset.view = "secret";
   }
 
+  /** Signing in by a personal link that is pasted. */
+  linkForm() {
+    return form({
+      id: "by-link",
+      groups: [field({ name: "key", label: own.link, help: own.linkHelp, spellcheck: "false", read: (input) => secretIn(input.value) })],
+      submit: own.signIn,
+      primary: false,
+      act: (values) => this.signIn(values),
+    });
+  }
+
   /** Signing in by login and password, folded. */
   passwordForm() {
     const byPassword = form({
@@ -81,5 +93,42 @@ export class SignInView {
       act: (values) => this.signIn(values),
     });
     return element("details", { class: "fold" }, element("summary", {}, own.byPassword), byPassword);
+  }
+}
+
+/** A dialog over what somebody was doing when their session ended; the page closes it when they are back. */
+export class ComeBack extends SignInView {
+  #dialog;
+
+  /** `giveUp` is called when what lies behind is not wanted any more; `role` says whose page this is. */
+  constructor(giveUp, role) {
+    super({ done: () => {} }, null);
+    const words = texts.comeBack;
+    const failure = element("div", { class: "failure" });
+    const elsewhere = actionButton(words.elsewhere, failure, async () => {
+      if ((await client.load()).role === null) {
+        failure.replaceChildren(element("p", { class: "message error", role: "alert" }, words.notYet));
+      }
+    });
+    const byPassword = this.passwordForm();
+    byPassword.open = true;
+    this.#dialog = element(
+      "dialog",
+      { class: "come-back classroom", "aria-labelledby": "come-back-title", oncancel: giveUp },
+      element("h1", { id: "come-back-title" }, words.title),
+      element("p", {}, words.what),
+      this.linkForm(),
+      byPassword,
+      role === "student" ? element("p", { class: "help" }, words.noWayIn) : null,
+      failure,
+      element("div", { class: "actions" }, elsewhere, element("button", { type: "button", id: "give-up", onclick: giveUp }, words.giveUp)),
+    );
+    document.body.append(this.#dialog);
+    this.#dialog.showModal();
+  }
+
+  close() {
+    this.#dialog.close();
+    this.#dialog.remove();
   }
 }

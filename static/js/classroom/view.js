@@ -52,6 +52,13 @@ export class View {
     this.#stopped = true;
   }
 
+  /** Whoever it is for had been signed out, or without a connection, and is back: what was typed is still here, what could not be had is asked for anew. */
+  resume() {
+    if (root.dataset.state === "failed") {
+      this.start();
+    }
+  }
+
   /** Does something and shows everything anew; what is wrong is said on top. */
   async act(change) {
     this.failure.replaceChildren();

@@ -88,6 +88,16 @@ export class NumberField extends HTMLElement {
     this.classList.toggle("invalid", message !== null);
   }
 
+  /** Whether the text typed was refused: then what it shows is not its value. */
+  get isRefused() {
+    return this.classList.contains("invalid");
+  }
+
+  /** Puts the focus into the text, to mend it. */
+  mend() {
+    this.#text.focus();
+  }
+
   #slide() {
     this.#emit(this.#scale.value(Number(this.#slider.value)));
   }
@@ -97,7 +107,7 @@ export class NumberField extends HTMLElement {
   }
 
   #settle() {
-    if (!this.classList.contains("invalid")) {
+    if (!this.isRefused) {
       this.#text.value = formatExact(this.#value);
     }
   }

@@ -113,6 +113,7 @@ export class JobDetails {
     document.documentElement.dataset.state = "failed";
     if (!this.#job) {
       this.heading.textContent = texts.title;
+      this.#table.node.hidden = true;
     }
     showError(this.#failure, error, { retry: () => this.start() });
   }
@@ -148,6 +149,7 @@ export class JobDetails {
       document.title = `${nameOf(job)} · adaptarm`;
       this.#bar.setAttribute("aria-label", texts.progressOf(nameOf(job)));
     }
+    this.#table.node.hidden = false;
     this.node.dataset.job = job.id;
     this.node.dataset.state = job.state;
     if (this.#badge.dataset.state !== job.state) {

@@ -1,14 +1,14 @@
 // What an experiment says as tables: a row per base and condition, the search of a tuning, or the readings of a replication.
 
 import { element } from "../dom.js";
-import { formatNumber } from "../format.js";
 import { texts } from "./experiment-texts.js";
+import { formatLocal } from "./numbers.js";
 
 /** Most rows that are shown; the downloads have all. */
 const MOST_ROWS = 100;
 
 const number = (value) => element("td", { class: "number" }, value);
-const pair = (list) => (list ? `${formatNumber(list[0])} – ${formatNumber(list[1])}` : "—");
+const pair = (list) => (list ? `${formatLocal(list[0])} – ${formatLocal(list[1])}` : "—");
 
 function table(caption, heads, rows) {
   const head = heads.map(([text, numeric]) => element("th", { scope: "col", class: numeric ? "number" : null }, text));
@@ -37,9 +37,9 @@ export function groupsTable(summary, metric, name) {
       {},
       element("th", { scope: "row" }, group.base),
       conditions ? element("td", {}, group.condition) : null,
-      number(formatNumber(statistics?.mean)),
+      number(formatLocal(statistics?.mean)),
       number(pair(statistics?.mean_interval)),
-      number(formatNumber(statistics?.p50)),
+      number(formatLocal(statistics?.p50)),
       number(pair(statistics && [statistics.p05, statistics.p95])),
       number(String(group.completed)),
       number(String(group.diverged?.count ?? 0)),
@@ -69,20 +69,20 @@ export function searchTable(summary) {
   const facts = [
     [texts.candidates, String(summary.candidates)],
     [texts.generations, String(summary.history.length)],
-    [texts.startObjective, formatNumber(summary.start?.objective)],
-    [texts.bestObjective, formatNumber(summary.best?.objective)],
+    [texts.startObjective, formatLocal(summary.start?.objective)],
+    [texts.bestObjective, formatLocal(summary.best?.objective)],
   ];
   const row = (pointer, n) =>
     element(
       "tr",
       {},
       element("th", { scope: "row" }, element("code", {}, pointer)),
-      number(formatNumber(summary.start?.values[n])),
-      number(formatNumber(summary.best?.values[n])),
+      number(formatLocal(summary.start?.values[n])),
+      number(formatLocal(summary.best?.values[n])),
     );
   const { validation } = summary;
   const said = validation && [
-    texts.validated(formatNumber(validation.start), formatNumber(validation.best)),
+    texts.validated(formatLocal(validation.start), formatLocal(validation.best)),
     texts.better(validation.better.count, validation.better.of),
   ];
   return [
@@ -104,7 +104,7 @@ export function readingsTable(summary) {
   const both = [best, summary.first];
   const row = (name, cell) => element("tr", {}, element("th", { scope: "row" }, name), both.map((reading) => number(reading ? cell(reading) : "—")));
   const rows = [
-    row(texts.distance, (reading) => formatNumber(reading.distance)),
+    row(texts.distance, (reading) => formatLocal(reading.distance)),
     row(texts.reached(summary.entries.length), (reading) => String(reading.reached)),
     ...summary.unknowns.map(({ name }, n) => row(name, (reading) => reading.options[n])),
   ];

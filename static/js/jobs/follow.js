@@ -22,7 +22,7 @@ const POLLS = 15;
  * and what `signal` says when it is aborted.
  */
 export async function follow(id, { hear, trouble = () => {} }, signal) {
-  const heard = { last: null };
+  const heard = { last: null, resumed: false };
   let broken = 0;
   let pause = FIRST_PAUSE_MS;
   for (;;) {
@@ -38,12 +38,14 @@ export async function follow(id, { hear, trouble = () => {} }, signal) {
       // A stream that ends before the job does: the server was told to stop, or something between us cuts it off.
       broken = ended ? 0 : heard.last === before ? broken + 1 : 1;
       pause = FIRST_PAUSE_MS;
+      heard.resumed = true;
     } catch (error) {
       signal?.throwIfAborted();
       if (!(error instanceof ApiError) || !error.isPassing) {
         throw error;
       }
       trouble(error);
+      heard.resumed = true;
       broken = 0;
       await rest(error.retryAfter ? error.retryAfter * 1000 : pause * (0.75 + 0.5 * Math.random()), signal);
       pause = Math.min(2 * pause, LONGEST_PAUSE_MS);
@@ -70,6 +72,11 @@ async function stream(id, heard, hear, trouble, signal) {
     }
     const onEvent = (event) => {
       heard.last = event.id ?? heard.last;
+      if (heard.resumed) {
+        // Events tell what is done; who had to begin again meanwhile, the job tells.
+        heard.resumed = false;
+        readJob(id).then((job) => signal?.aborted || hear(job), () => {});
+      }
       const data = JSON.parse(event.data);
       if (event.type === "state") {
         ended = isFinal(data.state);

@@ -2,8 +2,9 @@
 
 import { isFinal } from "../api.js";
 import { element } from "../dom.js";
-import { formatNumber, formatSeconds } from "../format.js";
+import { formatSeconds } from "../format.js";
 import { strings } from "../strings/index.js";
+import { formatLocal } from "./numbers.js";
 import { schemeName } from "./schemes.js";
 
 const texts = strings.server;
@@ -96,6 +97,6 @@ function summary(report, n, chosen, ended) {
   }
   const diverged = report.outcome === "diverged";
   const outcome = diverged ? strings.diverged(formatSeconds(report.at_s), report.reason) : texts.completed;
-  const index = (report.index_e_deg ?? [null]).map((value) => formatNumber(value));
+  const index = (report.index_e_deg ?? [null]).map((value) => formatLocal(value));
   return { n, scheme: schemeName(report.scheme), outcome, diverged, index, chosen };
 }

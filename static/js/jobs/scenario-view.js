@@ -1,11 +1,11 @@
 // One scenario of a job: its numbers, its hashes, a figure of choice, downloads, and the way back into the playground.
 
 import { element } from "../dom.js";
-import { formatNumber } from "../format.js";
 import { strings } from "../strings/index.js";
 import { buildDownloads } from "./downloads.js";
 import { FigurePicture } from "./figures.js";
 import { showError } from "./message.js";
+import { formatLocal } from "./numbers.js";
 import { openScenarios } from "./open.js";
 import { schemeName } from "./schemes.js";
 
@@ -94,7 +94,7 @@ function numbersTable(report) {
           "tr",
           {},
           element("th", { scope: "row" }, texts.rows[field]),
-          joints.map((joint) => element("td", { class: "number" }, formatNumber(report[field][joint]))),
+          joints.map((joint) => element("td", { class: "number" }, formatLocal(report[field][joint]))),
         ),
       ),
     ),

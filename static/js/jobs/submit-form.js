@@ -69,7 +69,7 @@ export function buildSubmitForm(submitted) {
       submitted(job);
     } catch (error) {
       if (error.problem?.pointer !== undefined) {
-        refuse(`${texts.submitAt(error.problem.pointer || "/")} ${error.message}`);
+        refuse(atPlace(error.problem.pointer || "/", error.message));
       } else {
         showError(failure, error, { retry: () => send() });
       }
@@ -98,6 +98,14 @@ export function buildSubmitForm(submitted) {
       failure,
     ),
   );
+}
+
+/** What is wrong, with its place once: the server's sentence may begin with the end of it. */
+function atPlace(pointer, message) {
+  const [, place, rest] = /^(\S+): (.+)$/su.exec(message) ?? [];
+  const path = place?.replace(/\[(\d+)\]/gu, ".$1").split(".").join("/");
+  const isSaid = path !== undefined && `/${pointer}`.endsWith(`/${path}`);
+  return `${texts.submitAt(pointer)} ${isSaid ? rest : message}`;
 }
 
 /** The request's body for what was typed: a request, an experiment, a study or one scenario. Null, and why, where it is no JSON. */

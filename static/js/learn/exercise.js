@@ -10,6 +10,7 @@ import { card, facts, points, pointsOf, showError } from "../classroom/parts.js"
 import { momentElement } from "../classroom/times.js";
 import { element } from "../dom.js";
 import { parseTyped } from "../format.js";
+import { refusal } from "../refusal.js";
 import { load, save } from "../storage.js";
 import { localized, texts } from "../strings/classroom.js";
 import { strings } from "../strings/index.js";
@@ -31,6 +32,8 @@ const root = document.documentElement;
 export class ExerciseView {
   node = element("div", { class: "class-view exercise-view" });
   #id;
+  /** Where the gains are kept: other people may use this browser, too. */
+  #storage;
   #assignment;
   #attempts = [];
   #preview;
@@ -52,6 +55,7 @@ export class ExerciseView {
 
   constructor(id) {
     this.#id = id;
+    this.#storage = `classroom.gains.${client.session.id}.${id}`;
     this.#submission = new Submission(id);
     this.node.append(element("p", {}, element("a", { class: "back", href: "#" }, `← ${texts.list.title}`)), this.#head, this.#failure);
   }
@@ -87,12 +91,21 @@ export class ExerciseView {
     this.#bench?.stop();
   }
 
+  /** The student had been signed out, or without a connection, and is back. */
+  resume() {
+    if (root.dataset.state === "failed") {
+      this.start();
+    } else {
+      this.#submission.goOn();
+    }
+  }
+
   #build(core) {
     const { exercise } = this.#assignment;
     const gains = this.#remembered();
     this.#gains = gains;
     this.#moves = new Moves(exercise.moves, gains, (wanted, move) => this.#change(wanted, move));
-    this.#panel = new SubmitPanel(this.#submission, () => this.#moves.read());
+    this.#panel = new SubmitPanel(this.#submission, this.#moves);
     this.#history = new Attempts(this.#assignment.points, (earlier) => this.#takeBack(earlier));
     this.#board = leaderboardCard(this.#assignment);
     const pinned = element("section", { class: "pinned", "aria-label": strings.pinnedFigure });
@@ -100,8 +113,8 @@ export class ExerciseView {
       "aside",
       { class: "controls", "aria-label": own.controls },
       pinned,
-      card(own.gains, this.#moves.node, this.#resetButton(exercise)),
-      card(own.worth, this.#total, this.#feedback, this.#panel.node),
+      card(own.gains, this.#moves.node, this.#resetButton(exercise), this.#total, this.#panel.node),
+      card(own.worth, this.#feedback),
       card(own.attempts, this.#history.node),
     );
     const figures = figurePlace(own.figures);
@@ -129,10 +142,6 @@ export class ExerciseView {
     }
   }
 
-  get #storage() {
-    return `classroom.gains.${this.#id}`;
-  }
-
   /** Tries gains; returns null, or what the core says against them. */
   #change(gains, move) {
     const value = gains[move.name];
@@ -143,7 +152,8 @@ export class ExerciseView {
       this.#run(gains, this.#preview.documents(gains));
       return null;
     } catch (error) {
-      return failureOf(error).message;
+      const failure = failureOf(error);
+      return failure.pointer.endsWith(`/${move.name}`) ? refusal(failure, localized(move.label)) : failure.message;
     }
   }
 

@@ -1,7 +1,7 @@
 // The numbers that a student may move, as sliders; each edit is shown to `change`, which says what is wrong with it or nothing.
 
 import "../elements/number-field.js";
-import { element } from "../dom.js";
+import { element, symbol } from "../dom.js";
 import { linear } from "../scale.js";
 import { localized } from "../strings/classroom.js";
 
@@ -19,7 +19,7 @@ export class Moves {
     for (const move of moves) {
       const field = element("number-field", { "data-move": move.name });
       const label = localized(move.label);
-      field.configure({ caption: move.name, label, unit: move.unit ?? "", scale: scaleOf(move), defaultValue: move.start });
+      field.configure({ caption: "", label, unit: move.unit ?? "", scale: scaleOf(move), defaultValue: move.start });
       field.addEventListener("edit", ({ detail: { value } }) => {
         const wanted = { ...this.#gains, [move.name]: value };
         const wrong = change(wanted, move);
@@ -31,7 +31,7 @@ export class Moves {
         }
       });
       this.#fields.set(move.name, field);
-      this.node.append(element("div", { class: "gain move", role: "group", "aria-label": label }, element("p", { class: "gain-meaning" }, label), field));
+      this.node.append(element("div", { class: "gain move", role: "group", "aria-label": label }, element("p", { class: "gain-meaning" }, symbol(label)), field));
     }
     this.show(gains);
   }
@@ -42,6 +42,11 @@ export class Moves {
     for (const [name, field] of this.#fields) {
       field.accept(gains[name]);
     }
+  }
+
+  /** The first field whose text was refused, or null: what it shows is not what `read()` has. */
+  get refused() {
+    return [...this.#fields.values()].find(({ isRefused }) => isRefused) ?? null;
   }
 
   /** What was last accepted, by name. */

@@ -1,6 +1,6 @@
 // What gains are worth on the visible variants, by the core that grades on the server: the same functions, other variants.
 
-import { formatNumber } from "../format.js";
+import { formatLocal } from "../jobs/numbers.js";
 
 /** Endings of metrics and what they are measured in. */
 const UNITS = [
@@ -34,6 +34,6 @@ export class Preview {
 /** A metric's value with its unit. */
 export function quantity(metric, value) {
   const unit = UNITS.find(([ending]) => ending.test(metric))?.[1] ?? "";
-  const number = formatNumber(value, 3);
+  const number = formatLocal(value, 3);
   return unit === "°" || unit === "°/s" ? `${number}${unit}` : `${number}\u00a0${unit}`.trimEnd();
 }

@@ -10,6 +10,10 @@ import { load, save } from "../storage.js";
 
 export class Submission extends EventTarget {
   #id;
+  /** Where what is on its way is remembered: other people may use this browser, too. */
+  #storage;
+  /** The attempt that is followed. */
+  #attempt = null;
   #following = new AbortController();
   /** "idle", "sending", "unsent" (with `error`), "grading", "stuck" (its grade cannot be had, with `error`). */
   phase = "idle";
@@ -24,6 +28,7 @@ export class Submission extends EventTarget {
   constructor(id) {
     super();
     this.#id = id;
+    this.#storage = `classroom.pending.${client.session.id}.${id}`;
   }
 
   /** Takes up what an earlier visit left: sent or not, nobody knows, and the key makes sending it again safe. */
@@ -49,6 +54,19 @@ export class Submission extends EventTarget {
     return this.#send(load(this.#storage) ?? { key: newKey(), gains: this.gains });
   }
 
+  /** Whether what could not be sent is kept, to be sent again. */
+  get isKept() {
+    return this.phase === "unsent" && (this.error.isPassing || this.error.kind === "session");
+  }
+
+  /** Goes on for whoever's session had ended and who is back. */
+  goOn() {
+    if (this.error?.kind === "session") {
+      return this.phase === "stuck" ? this.#follow(this.#attempt) : this.retry();
+    }
+    return null;
+  }
+
   /** Gives up what was not sent. */
   forget() {
     save(this.#storage, null);
@@ -59,10 +77,6 @@ export class Submission extends EventTarget {
     this.#following.abort();
   }
 
-  get #storage() {
-    return `classroom.pending.${this.#id}`;
-  }
-
   async #send(pending) {
     this.gains = pending.gains;
     this.#enter("sending");
@@ -71,11 +85,11 @@ export class Submission extends EventTarget {
       const headers = { "Idempotency-Key": pending.key };
       attempt = await client.ask("POST", `assignments/${this.#id}/attempts`, { gains: pending.gains }, headers);
     } catch (error) {
-      if (!error.isPassing) {
+      this.#enter("unsent", error);
+      if (!this.isKept) {
         // Refused: sent again it would be refused again.
         save(this.#storage, null);
       }
-      this.#enter("unsent", error);
       return;
     }
     save(this.#storage, null);
@@ -84,6 +98,7 @@ export class Submission extends EventTarget {
 
   async #follow(attempt) {
     this.progress = 0;
+    this.#attempt = attempt;
     this.#enter("grading");
     const handlers = {
       progress: (share) => {

@@ -9,18 +9,18 @@ const own = texts.submit;
 export class SubmitPanel {
   node = element("div", { class: "submit-panel" });
   #submission;
-  #gains;
+  #moves;
   #assignment = null;
   #button = element("button", { type: "button", class: "primary wide", id: "submit" }, own.submit);
   #standing = element("p", { class: "standing", role: "status" });
   #bar = element("progress", { max: 1, value: 0, hidden: true, "aria-label": own.progress });
   #failure = element("div", { class: "failure" });
 
-  /** `gains()` are those to hand in. */
-  constructor(submission, gains) {
+  /** What `moves` shows is handed in. */
+  constructor(submission, moves) {
     this.#submission = submission;
-    this.#gains = gains;
-    this.#button.addEventListener("click", () => submission.submit(this.#gains()));
+    this.#moves = moves;
+    this.#button.addEventListener("click", () => this.#submit());
     submission.addEventListener("change", () => this.#draw());
     this.node.append(this.#button, this.#standing, this.#bar, this.#failure);
   }
@@ -29,6 +29,19 @@ export class SubmitPanel {
   show(assignment) {
     this.#assignment = assignment;
     this.#draw();
+  }
+
+  /** Hands in what is seen, or nothing: a number that was refused is not replaced by the one before it. */
+  #submit() {
+    const { refused } = this.#moves;
+    if (!refused) {
+      this.#submission.submit(this.#moves.read());
+      return;
+    }
+    this.#failure.replaceChildren(element("div", { class: "message error", "data-kind": "refused" }, element("p", { role: "alert" }, own.mend)));
+    // What was typed is being mended: the message has done its work.
+    this.#moves.node.addEventListener("input", () => this.#draw(), { once: true });
+    refused.mend();
   }
 
   #draw() {
@@ -47,7 +60,7 @@ export class SubmitPanel {
     }
     if (!error) {
       this.#failure.replaceChildren();
-    } else if (phase === "unsent" && error.isPassing) {
+    } else if (this.#submission.isKept) {
       showError(this.#failure, error, () => this.#submission.retry());
       const forget = element("button", { type: "button", class: "quiet", onclick: () => this.#submission.forget() }, own.forget);
       this.#failure.querySelector(".message-actions").append(forget);

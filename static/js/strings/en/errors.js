@@ -13,5 +13,6 @@ export const errors = {
   notANumber: (name, text) => (text === "" ? `${name} must be a number` : `${name} must be a number; “${text}” is not`),
   wrongLength: (name, found, expected) => `${name} needs ${expected} numbers; there are ${found}`,
   tooMany: (name, found, most) => `${name} may have at most ${most} entries; there are ${found}`,
+  otherRobot: (other, own) => `another robot than the playground's: “${other}” and not “${own}”`,
   unknown: (name, value, allowed) => `${name} cannot be “${value}”; allowed: ${allowed}`,
 };

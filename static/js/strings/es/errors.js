@@ -11,5 +11,6 @@ export const errors = {
   notANumber: (name, text) => (text === "" ? `${name} debe ser un número` : `${name} debe ser un número; «${text}» no lo es`),
   wrongLength: (name, found, expected) => `${name} necesita ${expected} números; hay ${found}`,
   tooMany: (name, found, most) => `${name} admite como máximo ${most} elementos; hay ${found}`,
+  otherRobot: (other, own) => `otro robot que el del laboratorio: «${other}» y no «${own}»`,
   unknown: (name, value, allowed) => `${name} no puede ser «${value}»; se admite: ${allowed}`,
 };

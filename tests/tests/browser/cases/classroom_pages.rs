@@ -3,7 +3,7 @@
 use super::accessibility::examine;
 use super::jobs::text;
 use super::language::COMPARE;
-use super::school::{School, api, graded, hand_in, place, previewed};
+use super::school::{School, api, graded, hand_in, place, previewed, set_gains};
 use crate::bench::Bench;
 use crate::page::{Page, Screen};
 use crate::pictures::save;
@@ -196,6 +196,83 @@ pub fn whoever_leaves_comes_back_or_is_erased(bench: &Bench) -> Result<()> {
     page.wait_for("return document.getElementById('join') !== null")?;
     let class = api(&school.teacher, &format!("classes/{}", school.class))?;
     ensure!(class["students"] == json!([]), "Eve is not erased: {class}");
+    Ok(())
+}
+
+/// Ends the session of this browser as another tab, or the server, would: the page does not know.
+const END_SESSION: &str = "const done = arguments[0]; (async () => { \
+    const { csrf } = await (await fetch('/api/v1/classroom/session')).json(); \
+    const answer = await fetch('/api/v1/classroom/session', { method: 'DELETE', headers: { 'X-CSRF-Token': csrf } }); \
+    done(answer.status); })().catch((error) => done(String(error)))";
+
+pub fn an_ended_session_loses_nothing(bench: &Bench) -> Result<()> {
+    let school = School::open(bench)?;
+    let page = Page::blank(bench, Screen::Desktop)?;
+    page.go(&format!("{}/learn.html#code={}", school.server.url, school.code))?;
+    page.wait_for("return document.getElementById('join') !== null")?;
+    page.type_into("#join-name", "Ana")?;
+    page.click("#join button")?;
+    page.wait_for("return document.getElementById('link-kept') !== null")?;
+    let link = text(&page, "return document.querySelector('.secret').textContent")?;
+    page.click("#link-kept")?;
+    page.wait_for("return document.querySelector('[data-assignment]') !== null")?;
+    school.open_assignment(&page)?;
+    set_gains(&page, &school.solution()?)?;
+    ensure!(page.run_async(END_SESSION, &[])? == 204, "the session does not end");
+    page.click("#submit")?;
+    page.wait_for("return document.querySelector('.come-back[open]') !== null")?;
+    page.type_into(".come-back #by-link-key", &link)?;
+    page.click(".come-back #by-link button")?;
+    // What was handed in goes on its way, once, with the gains that were set.
+    ensure!(graded(&page, 1)? == 100.0, "other gains were handed in");
+    ensure!(page.run("return document.querySelector('.come-back')", &[])? == Value::Null, "it still asks");
+    let attempts = api(&page, &format!("assignments/{}/attempts", school.assignment))?;
+    ensure!(attempts["attempts"].as_array().is_some_and(|all| all.len() == 1), "{attempts}");
+
+    let teacher = &school.teacher;
+    teacher.run("document.getElementById('assign').open = true", &[])?;
+    teacher.type_into("#new-assignment-title", "Hours of work")?;
+    ensure!(teacher.run_async(END_SESSION, &[])? == 204, "the teacher's session does not end");
+    teacher.click("#new-assignment > button")?;
+    teacher.wait_for("return document.querySelector('.come-back[open]') !== null")?;
+    teacher.type_into(".come-back #by-password-login", "vega")?;
+    teacher.type_into(".come-back #by-password-password", "correct horse battery")?;
+    teacher.click(".come-back #by-password button")?;
+    teacher.wait_for("return document.querySelector('.come-back') === null")?;
+    let typed = text(teacher, "return document.getElementById('new-assignment-title')?.value ?? 'gone'")?;
+    ensure!(typed == "Hours of work", "what the teacher typed is {typed:?}");
+    Ok(())
+}
+
+pub fn a_refused_number_is_not_handed_in(bench: &Bench) -> Result<()> {
+    let school = School::open(bench)?;
+    let page = school.join("Ana", Screen::Desktop)?;
+    school.open_assignment(&page)?;
+    page.type_into("[data-move] .exact input", "1e9")?;
+    page.click("#submit")?;
+    page.wait_for("return document.querySelector('.submit-panel .message.error') !== null")?;
+    let focus = text(&page, "return document.activeElement.closest('.invalid')?.dataset.move ?? 'elsewhere'")?;
+    ensure!(focus != "elsewhere", "the number to mend has not the focus");
+    let attempts = api(&page, &format!("assignments/{}/attempts", school.assignment))?;
+    ensure!(attempts["attempts"] == json!([]), "the number before it was handed in: {attempts}");
+    set_gains(&page, &school.solution()?)?;
+    ensure!(hand_in(&page, 1)? == 100.0, "what was mended is not what was handed in");
+    Ok(())
+}
+
+pub fn a_join_link_asks_whoever_is_signed_in(bench: &Bench) -> Result<()> {
+    let school = School::open(bench)?;
+    let link = format!("{}/learn.html#code={}", school.server.url, school.code);
+    let student = school.join("Ana", Screen::Desktop)?;
+    for (page, role) in [(&school.teacher, "teacher"), (&student, "student")] {
+        page.devtools("Page.navigate", &json!({ "url": "about:blank" }))?;
+        page.go(&link)?;
+        page.wait_for("return document.getElementById('join-anyway') !== null")?;
+        ensure!(page.run("return document.getElementById('join')", &[])? == Value::Null, "a {role} is offered to join");
+        ensure!(api(page, "session")?["role"] == role, "the {role}'s session is gone");
+    }
+    student.click("#go-on")?;
+    student.wait_for("return document.querySelector('.assignment-list [data-assignment]') !== null")?;
     Ok(())
 }
 

@@ -166,6 +166,8 @@ pub fn a_job_opens_in_the_playground(bench: &Bench) -> Result<()> {
         )?;
         ensure!(shown == json!([expected.scenario_hash, true]), "{}: {shown}", scheme.id());
     }
+    let width = page.run("return document.querySelector('.notice.info').getBoundingClientRect().width", &[])?;
+    ensure!(width.as_f64().is_some_and(|width| width > 500.0), "what was taken over is said in {width} px");
     // Taken once: what is changed after that is not undone by a reload.
     page.type_into(&format!("{} .exact input", gain_field(Scheme::Proposed, "/scheme/gains/beta")), "2.5")?;
     page.ready()?;
@@ -174,15 +176,19 @@ pub fn a_job_opens_in_the_playground(bench: &Bench) -> Result<()> {
     ensure!(shown_hash(&page, Scheme::Proposed)? == changed, "the reload brought the job's settings back");
 
     // What cannot be used is said and changes nothing.
-    page.run(
-        "sessionStorage.setItem('adaptarm.handover', JSON.stringify({ scenarios: [{ format: 'adaptarm.scenario/9', \
-         scheme: { kind: 'proposed' } }] }))",
-        &[],
-    )?;
-    page.reload()?;
-    let notice = text(&page, "return document.querySelector('.notice.error')?.textContent ?? ''")?;
-    ensure!(notice.contains("nothing was changed"), "{notice}");
-    ensure!(shown_hash(&page, Scheme::Proposed)? == changed, "something was changed");
+    for (document, said) in [
+        (json!({ "format": "adaptarm.scenario/9", "scheme": { "kind": "proposed" } }), "adaptarm.scenario/9"),
+        (json!({ "format": "adaptarm.scenario/1", "robot": "pendulum", "scheme": { "kind": "proposed" } }), "Pendulum"),
+    ] {
+        page.run(
+            "sessionStorage.setItem('adaptarm.handover', JSON.stringify({ scenarios: [arguments[0]] }))",
+            &[document],
+        )?;
+        page.reload()?;
+        let notice = text(&page, "return document.querySelector('.notice.error')?.textContent ?? ''")?;
+        ensure!(notice.contains("nothing was changed") && notice.contains(said), "{notice}");
+        ensure!(shown_hash(&page, Scheme::Proposed)? == changed, "something was changed");
+    }
     Ok(())
 }
 

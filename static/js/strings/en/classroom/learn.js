@@ -23,6 +23,11 @@ export const learn = {
     signIn: "Sign in",
     byPassword: "With login and password",
     teacher: "I teach a class",
+    already: "You are signed in already",
+    alreadyTeacher: (name) => `In this browser you are the teacher ${name}. Joining would sign you out here and add a student to the class. To see what students see, open the link in a private window.`,
+    alreadyStudent: (name, of) => `In this browser you are ${name}, in the class ${of}. Joining would sign you out here and make you another student.`,
+    goOn: (name) => `Go on as ${name}`,
+    joinAnyway: "Join as a new student",
   },
 
   list: {
@@ -68,6 +73,7 @@ export const learn = {
 
   submit: {
     submit: "Hand in",
+    mend: "Nothing was handed in, and no attempt is used: one of the numbers above cannot be taken. Mend it first.",
     progress: "Grading",
     sending: "Sending…",
     grading: (percent) => `Grading on hidden variants, ${percent} %`,

@@ -28,6 +28,15 @@ export const shared = {
     kept: "I have kept the link",
   },
 
+  comeBack: {
+    title: "Your session has ended",
+    what: "What you were doing is still here, behind this window. Sign in again as the same person and go on: what you were handing in is sent then.",
+    noWayIn: "Neither link nor password? Your teacher can give you a new link. Joining again would make you a second student.",
+    elsewhere: "I have signed in in another tab",
+    notYet: "This browser is not signed in yet.",
+    giveUp: "Leave this and start anew",
+  },
+
   errors: {
     unexpected: (what) => `Something went wrong in this page: ${what}`,
     offline: "You are offline. The classroom needs its server; what you have set here stays.",
@@ -45,6 +54,8 @@ export const shared = {
     full: (most) => `There is room for ${most}, and they are all there.`,
     tooOften: (seconds) => (seconds === null ? "Too many tries. Wait a little." : `Too many tries. Wait ${seconds} s.`),
     notFound: "There is no such thing here, or it is not yours.",
+    length: (length, min, max) => (length === "0" ? "Something must stand here." : `From ${min} to ${max} characters; here are ${length}.`),
+    outOfRange: (value, min, max) => `This must be between ${min} and ${max}; ${value} is not.`,
     refused: (why) => `The server did not accept this: ${why}.`,
     other: (status, why) => `The server answered with an error (${status}): ${why}`,
   },

@@ -23,6 +23,11 @@ export const learn = {
     signIn: "Entrar",
     byPassword: "Con usuario y contraseña",
     teacher: "Doy clase",
+    already: "Ya ha entrado",
+    alreadyTeacher: (name) => `En este navegador es docente: ${name}. Al unirse saldría de su cuenta aquí y la clase tendría un estudiante más. Para ver lo que ven los estudiantes, abra el enlace en una ventana privada.`,
+    alreadyStudent: (name, of) => `En este navegador es ${name}, de la clase ${of}. Al unirse saldría de su cuenta aquí y se convertiría en otro estudiante.`,
+    goOn: (name) => `Seguir como ${name}`,
+    joinAnyway: "Unirse como estudiante nuevo",
   },
 
   list: {
@@ -68,6 +73,7 @@ export const learn = {
 
   submit: {
     submit: "Entregar",
+    mend: "No se ha entregado nada ni se ha gastado un intento: uno de los números de arriba no se admite. Corríjalo primero.",
     progress: "Calificación",
     sending: "Enviando…",
     grading: (percent) => `Calificando con variantes ocultas, ${percent} %`,

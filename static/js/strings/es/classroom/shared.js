@@ -28,6 +28,15 @@ export const shared = {
     kept: "Ya he guardado el enlace",
   },
 
+  comeBack: {
+    title: "La sesión ha terminado",
+    what: "Lo que estaba haciendo sigue aquí, detrás de esta ventana. Vuelva a entrar como la misma persona y continúe: lo que estaba entregando se envía entonces.",
+    noWayIn: "¿Ni enlace ni contraseña? Su docente puede darle un enlace nuevo. Unirse otra vez le convertiría en un segundo estudiante.",
+    elsewhere: "Ya he entrado en otra pestaña",
+    notYet: "Este navegador todavía no ha entrado.",
+    giveUp: "Dejar esto y empezar de nuevo",
+  },
+
   errors: {
     unexpected: (what) => `Algo ha fallado en esta página: ${what}`,
     offline: "Sin conexión. El aula necesita su servidor; lo que ha ajustado aquí se conserva.",
@@ -45,6 +54,8 @@ export const shared = {
     full: (most) => `Hay sitio para ${most}, y ya están todos.`,
     tooOften: (seconds) => (seconds === null ? "Demasiados intentos. Espere un poco." : `Demasiados intentos. Espere ${seconds} s.`),
     notFound: "Aquí no hay tal cosa, o no es suya.",
+    length: (length, min, max) => (length === "0" ? "Aquí debe haber algo escrito." : `De ${min} a ${max} caracteres; aquí hay ${length}.`),
+    outOfRange: (value, min, max) => `Debe estar entre ${min} y ${max}; ${value} no lo está.`,
     refused: (why) => `El servidor no ha aceptado esto: ${why}.`,
     other: (status, why) => `El servidor respondió con un error (${status}): ${why}`,
   },
