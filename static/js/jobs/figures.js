@@ -40,8 +40,7 @@ export class FigurePicture {
   show(n, report) {
     this.#n = n;
     this.#report = report;
-    // Only a scheme with an observer has its errors.
-    const names = Object.keys(texts.figures).filter((name) => name !== "observer_errors" || report.z_peak_deg);
+    const names = Object.keys(texts.figures).filter((name) => isThere(name, report));
     this.figure = names.includes(this.figure) ? this.figure : names[0];
     this.#choice.replaceChildren(...names.map((name) => element("option", { value: name }, texts.figures[name])));
     this.#choice.value = this.figure;
@@ -65,4 +64,12 @@ export class FigurePicture {
 /** Path of a figure below the API's root. */
 export function figurePath(id, n, figure, format) {
   return `jobs/${id}/result/figures/${figure}.${format}?scenario=${n}`;
+}
+
+/** First parameter of the figures of estimates that not every robot has. */
+const FIRST_ESTIMATE = { estimates_2: 7, estimates_3: 13 };
+
+/** Whether a run has what a figure shows: only a scheme with an observer has its errors, and small robots have few parameters. */
+function isThere(figure, { z_peak_deg, theta_true }) {
+  return figure === "observer_errors" ? Boolean(z_peak_deg) : theta_true.length >= (FIRST_ESTIMATE[figure] ?? 1);
 }

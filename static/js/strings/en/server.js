@@ -143,7 +143,7 @@ export const server = {
   noResults: "No scenario has a result yet.",
   number: "No.",
   outcome: "Outcome",
-  indexColumn: "Index of errors,\u00a0°, joints 1 to 3",
+  indexColumn: "Index of errors,\u00a0°, joint by joint",
   completed: "completed",
   missing: "no result",
   waiting: "not done yet",

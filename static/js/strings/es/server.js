@@ -148,7 +148,7 @@ export const server = {
   noResults: "Ningún escenario tiene todavía un resultado.",
   number: "N.º",
   outcome: "Desenlace",
-  indexColumn: "Índice de errores,\u00a0°, articulaciones 1 a 3",
+  indexColumn: "Índice de errores,\u00a0°, articulación por articulación",
   completed: "completado",
   missing: "sin resultado",
   waiting: "aún no calculado",
