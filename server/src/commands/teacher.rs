@@ -48,13 +48,12 @@ pub(super) fn run(Arguments { command: Command::Link { login, url, storage } }: 
     }
     super::runtime()?.block_on(async {
         let tables = open_tables(&config).await.map_err(Failure::chain)?;
-        let link = match login {
-            Some(login) => way_back(&*tables.classroom, base, login).await?,
-            None => {
-                let (link, ends) = invite(&*tables.classroom, base, true).await.map_err(Failure::chain)?;
-                eprintln!("It makes a new teacher, once, until {ends}:");
-                link
-            }
+        let link = if let Some(login) = login {
+            way_back(&*tables.classroom, base, login).await?
+        } else {
+            let (link, ends) = invite(&*tables.classroom, base, true).await.map_err(Failure::chain)?;
+            eprintln!("It makes a new teacher, once, until {ends}:");
+            link
         };
         if url.is_none() && config.classroom.public_url.is_none() {
             eprintln!("(for a server at {base}; for another address give --url)");
