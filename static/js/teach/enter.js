@@ -11,7 +11,8 @@ import { texts } from "../strings/classroom.js";
 const own = texts.teachEnter;
 const root = document.documentElement;
 
-const command = (text) => element("pre", {}, element("code", {}, text));
+// It scrolls where it is wider than the page: reachable by keyboard.
+const command = (text) => element("pre", { tabindex: "0" }, element("code", {}, text));
 
 export class EnterView extends SignInView {
   async start() {
