@@ -54,14 +54,6 @@ impl Found {
             }
         }
     }
-
-    /// The rows; a tuning keeps none.
-    fn results(&self) -> Option<&Results> {
-        match self {
-            Self::Rows(results, _) | Self::Readings(results, _) => Some(results),
-            Self::Search(_) => None,
-        }
-    }
 }
 
 /// A file of an experiment.
@@ -128,12 +120,12 @@ impl File {
     /// column is held at a time.
     pub fn write(self, experiment: &Experiment, found: &Found, out: &mut (dyn Write + Send)) -> Result<bool> {
         let bytes = match (self, found) {
-            (Self::RunsCsv | Self::RunsParquet, _) => {
-                let Some(results) = found.results() else { return Ok(false) };
-                match self {
-                    Self::RunsCsv => csv(experiment, results, out)?,
-                    _ => table(experiment, results, out)?,
-                }
+            (Self::RunsCsv, Found::Rows(results, _) | Found::Readings(results, _)) => {
+                csv(experiment, results, out)?;
+                return Ok(true);
+            }
+            (Self::RunsParquet, Found::Rows(results, _) | Found::Readings(results, _)) => {
+                table(experiment, results, out)?;
                 return Ok(true);
             }
             (Self::Experiment, _) => json(experiment.document())?,
@@ -151,6 +143,7 @@ impl File {
             },
             (Self::Report, Found::Readings(_, summary)) => search_report::report(experiment, summary)?.into_bytes(),
             (Self::Report, _)
+            | (Self::RunsCsv | Self::RunsParquet, Found::Search(_))
             | (Self::Best | Self::Generations | Self::Front, Found::Rows(..) | Found::Readings(..)) => {
                 return Ok(false);
             }

@@ -189,13 +189,13 @@ fn storage(error: impl std::fmt::Display) -> Failure {
     (FailureReason::Storage, error.to_string())
 }
 
-/// The rows of a step while they are gathered.
+/// The rows of a step while they are gathered, with what they are told to.
 #[derive(Debug)]
 pub(super) enum Gathered {
     /// Of an experiment that is laid out.
     Results(Results),
     /// Of a generation of a tuning, whose size has a limit.
-    Generation(Vec<Row>),
+    Generation(Box<Tuning>, Vec<Row>),
 }
 
 impl Gathered {
@@ -203,7 +203,7 @@ impl Gathered {
     pub(super) fn begin(work: &Work) -> Result<Self, Failure> {
         match &work.tuning {
             None => begin_results(&work.experiment).map(Self::Results),
-            Some(_) => Ok(Self::Generation(Vec::new())),
+            Some(tuning) => Ok(Self::Generation(Box::new(tuning.clone()), Vec::new())),
         }
     }
 
@@ -211,7 +211,7 @@ impl Gathered {
     pub(super) fn and(mut self, work: &Work, packed: &[Vec<u8>]) -> Result<Self, Failure> {
         match &mut self {
             Self::Results(results) => take_in(&work.experiment, results, packed)?,
-            Self::Generation(rows) => {
+            Self::Generation(_, rows) => {
                 for part in packed {
                     rows.extend(read_rows(part)?);
                 }
@@ -222,11 +222,10 @@ impl Gathered {
 }
 
 /// What the rows of a step come to. May take seconds where there are very many.
-pub(super) fn fold(work: &Work, step: i64, gathered: Gathered) -> Result<Folded, Failure> {
-    match (&work.tuning, gathered) {
-        (Some(tuning), Gathered::Generation(rows)) => learn(&work.experiment, tuning.clone(), step, rows),
-        (None, Gathered::Results(results)) => sum_up(&work.experiment, step, &results),
-        _ => Err((FailureReason::Document, "the step's rows are not of this kind of work".to_owned())),
+pub(super) fn fold(experiment: &Experiment, step: i64, gathered: Gathered) -> Result<Folded, Failure> {
+    match gathered {
+        Gathered::Generation(tuning, rows) => learn(experiment, *tuning, step, rows),
+        Gathered::Results(results) => sum_up(experiment, step, &results),
     }
 }
 

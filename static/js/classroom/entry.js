@@ -1,7 +1,9 @@
 // Secrets in the address: taken out of the address bar at once, so that no history, screen or bookmark keeps them.
 
+import { loadSession, saveSession } from "../storage.js";
+
 /** An invitation stays in this tab until it is used: a reload before that must not lose it. */
-const KEPT = "adaptarm.invitation";
+const KEPT = "invitation";
 const SECRET = /^#(invitation|key|code)=([\w-]+)$/u;
 
 /** What the address brings, as `{kind, secret}`, or null; the address then has it no more. */
@@ -12,29 +14,20 @@ export function takeSecret() {
   }
   history.replaceState(null, "", location.pathname + location.search);
   if (kind === "invitation") {
-    inTab((storage) => storage.setItem(KEPT, secret));
+    saveSession(KEPT, secret);
   }
   return { kind, secret };
 }
 
 /** The invitation that this tab was opened with and has not used, or null. */
 export function keptInvitation() {
-  const secret = inTab((storage) => storage.getItem(KEPT));
+  const secret = loadSession(KEPT);
   return secret ? { kind: "invitation", secret } : null;
 }
 
 /** It is used, or not good, or not wanted. */
 export function forgetInvitation() {
-  inTab((storage) => storage.removeItem(KEPT));
-}
-
-function inTab(act) {
-  try {
-    return act(sessionStorage);
-  } catch {
-    // Storage is forbidden: a reload then loses it.
-    return null;
-  }
+  saveSession(KEPT, null);
 }
 
 /** The secret in a link that someone pasted, or the text itself: people paste either. */

@@ -163,7 +163,7 @@ export function actionButton(label, place, act, attributes = {}) {
 }
 
 /** A number from a field, or null where it is empty; what is no number stays text, for the server to refuse. */
-export function numberOf(input) {
+function numberOf(input) {
   const text = input.value.trim().replace(",", ".");
   return text === "" ? null : Number.isNaN(Number(text)) ? text : Number(text);
 }

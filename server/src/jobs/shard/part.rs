@@ -122,7 +122,7 @@ impl Worker<'_> {
             }
         }
         let step = part.step;
-        let folded = self.on_pool(move || fold(&work, step, gathered)).await?;
+        let folded = self.on_pool(move || fold(&work.experiment, step, gathered)).await?;
         let computed = self.computed();
         let delivered = retry(self.shared, || self.shared.store.deliver_fold(self.claim, &folded, computed)).await;
         match delivered.map_err(Stopped::Unreachable)? {
