@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
+use std::time::Duration;
 
 /// Path of the binary under test: `ADAPTARM_BIN`.
 pub fn binary() -> Result<PathBuf> {
@@ -28,6 +29,12 @@ pub fn python() -> Option<PathBuf> {
 /// Whether the long forms of tests are asked for: `ADAPTARM_SOAK`.
 pub fn soak() -> bool {
     switched_on("ADAPTARM_SOAK")
+}
+
+/// How long to wait for what is promised within a time: that time in the long forms; in the short ones, beside which other
+/// tests run, and on who knows what machine, four times as long.
+pub fn promised(time: Duration) -> Duration {
+    if soak() { time } else { 4 * time }
 }
 
 /// Whether we may do what root may.

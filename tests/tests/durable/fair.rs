@@ -31,18 +31,18 @@ pub fn users() -> Result<()> {
             ana.submit(&study(&scenarios))
         })
         .collect::<Result<Vec<_>>>()?;
-    surely(URGENT_JOB, || Ok((ana.job(&mountain[0])?["state"] == "running").then_some(())))
+    surely(machine::promised(URGENT_JOB), || Ok((ana.job(&mountain[0])?["state"] == "running").then_some(())))
         .context("the mountain is not begun")?;
 
     let mut slowest = Duration::ZERO;
     for n in 0..tries {
         let scenarios: Vec<_> = (0..20).map(|k| simulation(12.0, 20 * n + k)).collect();
-        let took = time(&ben, &study(&scenarios), SMALL_JOB).context("ben's small job")?;
+        let took = time(&ben, &study(&scenarios), machine::promised(SMALL_JOB)).context("ben's small job")?;
         slowest = slowest.max(took);
     }
     let mut urgent = study(&[simulation(12.0, 1_000_000)]);
     urgent["priority"] = json!(5);
-    let took = time(&ana, &urgent, URGENT_JOB).context("ana's urgent job")?;
+    let took = time(&ana, &urgent, machine::promised(URGENT_JOB)).context("ana's urgent job")?;
     println!(
         "beside {} simulations of ana's: ben's small job took at most {slowest:.1?}, ana's urgent one {took:.1?}",
         jobs * SCENARIOS_PER_JOB + 1
@@ -59,7 +59,8 @@ pub fn users() -> Result<()> {
         ensure!(canceled["state"] == "canceled", "{canceled}");
     }
     ana.wait_for_all(Duration::ZERO)?;
-    time(&ben, &study(&[simulation(12.0, 2_000_000)]), SMALL_JOB).context("a job after the mountain is gone")?;
+    time(&ben, &study(&[simulation(12.0, 2_000_000)]), machine::promised(SMALL_JOB))
+        .context("a job after the mountain is gone")?;
     Ok(())
 }
 

@@ -167,15 +167,7 @@ pub fn axe_finds_nothing_in_the_classroom(bench: &Bench) -> Result<()> {
 
 pub fn whoever_leaves_comes_back_or_is_erased(bench: &Bench) -> Result<()> {
     let school = School::open(bench)?;
-    let page = Page::blank(bench, Screen::Desktop)?;
-    page.go(&format!("{}/learn.html#code={}", school.server.url, school.code))?;
-    page.wait_for("return document.getElementById('join') !== null")?;
-    page.type_into("#join-name", "Eve")?;
-    page.click("#join button")?;
-    page.wait_for("return document.getElementById('link-kept') !== null")?;
-    let link = text(&page, "return document.querySelector('.secret').textContent")?;
-    page.click("#link-kept")?;
-    page.wait_for("return document.getElementById('account-link') !== null")?;
+    let (page, link) = school.join_with_link("Eve", Screen::Desktop)?;
     page.click("#account-link")?;
     page.wait_for("return document.getElementById('sign-out') !== null")?;
     page.click("#sign-out")?;
@@ -207,15 +199,7 @@ const END_SESSION: &str = "const done = arguments[0]; (async () => { \
 
 pub fn an_ended_session_loses_nothing(bench: &Bench) -> Result<()> {
     let school = School::open(bench)?;
-    let page = Page::blank(bench, Screen::Desktop)?;
-    page.go(&format!("{}/learn.html#code={}", school.server.url, school.code))?;
-    page.wait_for("return document.getElementById('join') !== null")?;
-    page.type_into("#join-name", "Ana")?;
-    page.click("#join button")?;
-    page.wait_for("return document.getElementById('link-kept') !== null")?;
-    let link = text(&page, "return document.querySelector('.secret').textContent")?;
-    page.click("#link-kept")?;
-    page.wait_for("return document.querySelector('[data-assignment]') !== null")?;
+    let (page, link) = school.join_with_link("Ana", Screen::Desktop)?;
     school.open_assignment(&page)?;
     set_gains(&page, &school.solution()?)?;
     ensure!(page.run_async(END_SESSION, &[])? == 204, "the session does not end");

@@ -1,9 +1,12 @@
 //! How long a slider move takes until all its results are on the canvases. Prints what it measures.
+//!
+//! How fast a machine is, and what else it does, is not the page's: only the long form, which runs alone, has a bound.
 
 use crate::bench::Bench;
 use crate::native::gain_field;
 use crate::page::{Page, Screen};
 use adaptarm_core::scenario::Scheme;
+use adaptarm_tests::machine;
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
@@ -30,7 +33,11 @@ pub fn a_slider_move_is_drawn_in_time(bench: &Bench) -> Result<()> {
         let list: Vec<_> = times_ms.iter().map(|time| format!("{time:.0}")).collect();
         println!("slider to canvas, {what}: median {:.0} ms of {}", median(times_ms), list.join(" "));
     }
-    ensure!(median(&all_ms) < BOUND_MS, "the median is {:.0} ms; promised are {BOUND_MS}", median(&all_ms));
+    ensure!(
+        !machine::soak() || median(&all_ms) < BOUND_MS,
+        "the median is {:.0} ms; promised are {BOUND_MS}",
+        median(&all_ms)
+    );
     Ok(())
 }
 

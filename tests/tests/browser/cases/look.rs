@@ -84,6 +84,23 @@ pub fn a_change_of_looks_would_be_seen(bench: &Bench) -> Result<()> {
     Ok(())
 }
 
+/// Whoever drags a slider must not see it wander because a sentence in the head became longer.
+pub fn what_the_head_says_moves_nothing(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Phone)?;
+    for width in [320, 360, 375, 390, 430, 640] {
+        let metrics = json!({ "width": width, "height": 844, "deviceScaleFactor": 1, "mobile": true });
+        page.devtools("Emulation.setDeviceMetricsOverride", &metrics)?;
+        let heights = page.run(
+            "const said = document.getElementById('run-state'); \
+             return ['computing…', 'up\\u00a0to\\u00a0date · 84\\u00a0ms', 'up\\u00a0to\\u00a0date · 18472\\u00a0ms'].map((text) => { \
+                said.textContent = text; return document.querySelector('header').offsetHeight; })",
+            &[],
+        )?;
+        ensure!(heights[0] == heights[1] && heights[1] == heights[2], "{width} px: the head is {heights} px high");
+    }
+    Ok(())
+}
+
 /// What a high window shows from the top of the page, at rest: with the first figures, which a usual one leaves out.
 fn look(page: &Page<'_>, screen: Screen) -> Result<Grid> {
     let (width, height, mobile) = if screen == Screen::Desktop { (1440, 2000, false) } else { (390, 2400, true) };

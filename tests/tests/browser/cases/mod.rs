@@ -152,6 +152,7 @@ pub const ALL: &[(&str, Case)] = &[
     ),
     ("the_main_page_looks_as_approved", look::the_main_page_looks_as_approved),
     ("a_change_of_looks_would_be_seen", look::a_change_of_looks_would_be_seen),
+    ("what_the_head_says_moves_nothing", look::what_the_head_says_moves_nothing),
     ("three_arms_are_drawn_side_by_side", arm::three_arms_are_drawn_side_by_side),
     ("the_arm_plays_and_is_scrubbed_by_keyboard", arm::the_arm_plays_and_is_scrubbed_by_keyboard),
     ("the_view_of_the_arm_turns_and_zooms_within_limits", arm::the_view_turns_and_zooms_within_limits),

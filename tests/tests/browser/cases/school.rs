@@ -52,15 +52,20 @@ impl<'a> School<'a> {
 
     /// A student joins: opens the link of the class, keeps the personal one, and comes to the assignments.
     pub fn join(&self, name: &str, screen: Screen) -> Result<Page<'a>> {
+        Ok(self.join_with_link(name, screen)?.0)
+    }
+
+    /// The same, with the personal link that was shown.
+    pub fn join_with_link(&self, name: &str, screen: Screen) -> Result<(Page<'a>, String)> {
         let page = Page::blank(self.bench, screen)?;
         page.go(&format!("{}/learn.html#code={}", self.server.url, self.code))?;
         page.wait_for("return document.getElementById('join') !== null")?;
         ensure!(text(&page, "return location.href")?.ends_with("/learn.html"), "the code stays in the address");
         page.type_into("#join-name", name)?;
         page.click("#join button")?;
-        keep_link(&page)?;
+        let link = keep_link(&page)?;
         page.wait_for("return document.querySelector('.assignment-list [data-assignment]') !== null")?;
-        Ok(page)
+        Ok((page, link))
     }
 
     /// Opens the assignment by its link in the list, and waits for the first preview.
@@ -96,14 +101,15 @@ fn become_teacher(page: &Page<'_>, server: &Server) -> Result<()> {
     page.wait_for("return document.getElementById('new-class') !== null")
 }
 
-/// The personal link is shown once, before anything else.
-fn keep_link(page: &Page<'_>) -> Result<()> {
+/// The personal link is shown once, before anything else; returns it.
+fn keep_link(page: &Page<'_>) -> Result<String> {
     page.wait_for(
         "return document.getElementById('link-kept') !== null || document.querySelector('.message.error') !== null",
     )?;
     let link = text(page, "return document.querySelector('.secret')?.textContent ?? document.body.innerText")?;
     ensure!(link.contains("#key="), "no personal link: {link}");
-    page.click("#link-kept")
+    page.click("#link-kept")?;
+    Ok(link)
 }
 
 /// Gives the exercise out with two attempts and a deadline; returns the assignment's identifier.
