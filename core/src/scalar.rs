@@ -7,14 +7,48 @@
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
-use std::ops::Neg;
+use std::ops::{Add, Mul, Neg, Sub};
 
 /// A computation to be compiled with a scalar's vector instructions. All that it calls on numbers must be inlined into it.
 pub trait Kernel {
     /// What it computes.
     type Output;
+    /// Whether it does the same with many numbers, one after another.
+    const LOOPS_OVER_NUMBERS: bool = false;
     /// Computes it.
     fn run(self) -> Self::Output;
+}
+
+/// Room for the widest [`Pack`].
+pub const MOST_PACKED: usize = 4;
+
+/// Neighbours in a structure of one run, such as a matrix: what one instruction works on. Each has the bits that it has alone.
+pub trait Pack<T>: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// How many numbers; at most [`MOST_PACKED`].
+    const WIDTH: usize;
+    /// The same number everywhere.
+    fn repeat(number: T) -> Self;
+    /// The first [`Pack::WIDTH`] of `numbers`.
+    fn load(numbers: &[T]) -> Self;
+    /// Writes the first [`Pack::WIDTH`] of `numbers`.
+    fn store(self, numbers: &mut [T]);
+}
+
+/// A number alone.
+impl<T: Scalar> Pack<T> for T {
+    const WIDTH: usize = 1;
+    #[inline(always)]
+    fn repeat(number: T) -> Self {
+        number
+    }
+    #[inline(always)]
+    fn load(numbers: &[T]) -> Self {
+        numbers[0]
+    }
+    #[inline(always)]
+    fn store(self, numbers: &mut [T]) {
+        numbers[0] = self;
+    }
 }
 
 /// A real number, or several side by side, with the operations that the closed loop needs.
@@ -33,8 +67,12 @@ pub trait Scalar:
 {
     /// Result of a comparison: one truth value per lane.
     type Mask: Copy;
+    /// How neighbours of one run are worked on together; the number alone wherever its lanes are runs.
+    type Pack: Pack<Self>;
     /// Numbers side by side.
     const LANES: usize;
+    /// Whether this is a number without vector instructions of its own, so that the compiler has to find them.
+    const IS_PLAIN: bool = Self::LANES == 1 && <Self::Pack as Pack<Self>>::WIDTH == 1;
 
     /// The number of each lane.
     fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;

@@ -64,7 +64,9 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
                     rate[k] = -gain[k] * (drive + projection.correction(k, theta_hat[k], drive));
                 }
             }
-            Self::Mixed(mixing) => mixing.theta_hat_rate(R::PAIRS, memory, rate),
+            Self::Mixed(mixing) => {
+                mixing.theta_hat_rate(w, |i, j| PredictionMemory::<R, T, N, P>::correlation(memory, i, j), rate);
+            }
         }
     }
 }
@@ -76,6 +78,22 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     fn states(&self) -> usize {
         FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::STATES
+    }
+
+    fn plain_states(&self) -> usize {
+        FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::PLAIN_STATES
+    }
+
+    fn write_plain(&self, states: &[T], plain: &mut [T]) {
+        let filter = FilteredRegressor::<R, T, N, P>::STATES;
+        plain[..filter].copy_from_slice(&states[..filter]);
+        PredictionMemory::<R, T, N, P>::write_plain(&states[filter..], &mut plain[filter..]);
+    }
+
+    fn read_plain(&self, plain: &[T], states: &mut [T]) {
+        let filter = FilteredRegressor::<R, T, N, P>::STATES;
+        states[..filter].copy_from_slice(&plain[..filter]);
+        PredictionMemory::<R, T, N, P>::read_plain(&plain[filter..], &mut states[filter..]);
     }
 
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
@@ -92,7 +110,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        if T::LANES == 1 {
+        if T::IS_PLAIN {
             self.derivative_apart(input, states, theta_hat_rate, states_rate);
         } else {
             self.derivative_within(input, states, theta_hat_rate, states_rate);

@@ -53,6 +53,21 @@ pub trait AdaptationLaw<R: Robot<N, P>, T: Scalar, const N: usize, const P: usiz
     /// Number of states beside θ̂.
     fn states(&self) -> usize;
 
+    /// Number of states as [`Self::write_plain`] writes them.
+    fn plain_states(&self) -> usize {
+        self.states()
+    }
+
+    /// Writes the states without what is kept for vector instructions only.
+    fn write_plain(&self, states: &[T], plain: &mut [T]) {
+        plain.copy_from_slice(states);
+    }
+
+    /// Writes the states from what [`Self::write_plain`] wrote.
+    fn read_plain(&self, plain: &[T], states: &mut [T]) {
+        states.copy_from_slice(plain);
+    }
+
     /// Writes the initial states for a start at this configuration and velocity v*.
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]);
 

@@ -2,16 +2,16 @@
 //!
 //! `ε = Yf θ̂ − τf`, `Z' = −λ Z + γ Yfᵀ Yf`, `w' = −λ w + γ Yfᵀ ε + Z θ̂'`, both zero at the start, which keeps
 //! `w = Z (θ̂ − θ)` as long as `τf = Yf θ`. Tang and Arteaga's g is the same w (their eq. prints `Γ1 Z`, right only for a
-//! scalar Γ1). Z is symmetric; only its upper triangle's live entries are kept.
+//! scalar Γ1). Z is symmetric and has zeros: [`SymmetricLayout`] says which of its numbers are kept and where.
 
-use crate::regressor::{gradient, model_torque};
-use crate::robots::{Regressor, Robot};
-use crate::scalar::Scalar;
+use crate::regressor::model_torque;
+use crate::robots::{NONE, Regressor, Robot, SymmetricLayout};
+use crate::scalar::{MOST_PACKED, Pack, Scalar};
 use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
 
-/// The memory; its states are w, then the live upper triangle of Z.
+/// The memory; its states are w, filled up with zeros to whole vectors, then the kept vectors of Z.
 #[derive(Debug, Clone, Copy)]
 pub struct PredictionMemory<R, T, const N: usize, const P: usize> {
     /// Gain γ of new errors.
@@ -27,8 +27,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         Self { gain, forgetting, robot: PhantomData }
     }
 
+    const WIDTH: usize = <T::Pack as Pack<T>>::WIDTH;
+    const LAYOUT: &'static SymmetricLayout<P> = &SymmetricLayout::new::<N>(&R::LIVE, Self::WIDTH);
+    /// States of w.
+    const W: usize = Self::LAYOUT.groups * Self::WIDTH;
     /// Number of states.
-    pub const STATES: usize = P + R::PAIRS.len();
+    pub const STATES: usize = Self::W + Self::LAYOUT.kept_len * Self::WIDTH;
+    /// Number of states without what is kept for vectors only.
+    pub const PLAIN_STATES: usize = P + R::PAIRS.len();
 
     /// Writes `w'` and `Z'`, given `Yf`, `τf`, θ̂ and its rate. Source: paper eq. (16) to (18).
     #[inline(always)]
@@ -41,30 +47,204 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         states: &[T],
         rate: &mut [T],
     ) {
+        let repeat = <T::Pack as Pack<T>>::repeat;
         let prediction_error = model_torque::<R, T, N, P>(filtered, theta_hat) - filtered_torque;
-        let correlation = gradient::<R, T, N, P>(filtered, &prediction_error);
-        let (w, z) = states[..Self::STATES].split_at(P);
-        let (w_rate, z_rate) = rate[..Self::STATES].split_at_mut(P);
+        let (w, z) = states[..Self::STATES].split_at(Self::W);
+        let (w_rate, z_rate) = rate[..Self::STATES].split_at_mut(Self::W);
         let theta_hat_rate = &theta_hat_rate[..P];
-        for k in 0..P {
-            w_rate[k] = self.gain * correlation[k] - self.forgetting * w[k];
-        }
-        unrolled!(R::PAIRS.len(), n => {
-            let (i, j) = R::PAIRS[n];
-            let mut product = T::zero();
+        let (gain, forgetting) = (repeat(self.gain), repeat(self.forgetting));
+
+        let mut rows = [[repeat(T::zero()); P]; N];
+        let mut sum = [repeat(T::zero()); P];
+        unrolled!(Self::LAYOUT.groups, g => {
+            for row in 0..N {
+                if Self::is_live(row, g) {
+                    rows[row][g] = Self::neighbours(g, |k| if R::LIVE[row][k] { filtered[(row, k)] } else { T::zero() });
+                    sum[g] = sum[g] + rows[row][g] * repeat(prediction_error[row]);
+                }
+            }
+            sum[g] = gain * sum[g] - forgetting * T::Pack::load(&w[g * Self::WIDTH..]);
+        });
+        unrolled!(Self::LAYOUT.whole_len, n => {
+            let (j, g) = Self::LAYOUT.whole[n];
+            sum[g] = sum[g] + Self::neighbours(g, |i| Self::entry(z, j, i)) * repeat(theta_hat_rate[j]);
+        });
+        unrolled!(Self::LAYOUT.groups, g => {
+            sum[g].store(&mut w_rate[g * Self::WIDTH..]);
+        });
+        unrolled!(Self::LAYOUT.kept_len, n => {
+            let (i, g) = Self::LAYOUT.kept[n];
+            let mut product = repeat(T::zero());
             let mut is_first = true;
             for row in 0..N {
-                if R::LIVE[row][i] && R::LIVE[row][j] {
-                    let term = filtered[(row, i)] * filtered[(row, j)];
+                if R::LIVE[row][i] && Self::is_live(row, g) {
+                    let term = repeat(filtered[(row, i)]) * rows[row][g];
                     product = if is_first { term } else { product + term };
                     is_first = false;
                 }
             }
-            z_rate[n] = self.gain * product - self.forgetting * z[n];
-            w_rate[i] += z[n] * theta_hat_rate[j];
-            if i != j {
-                w_rate[j] += z[n] * theta_hat_rate[i];
-            }
+            let z = T::Pack::load(&z[n * Self::WIDTH..]);
+            (gain * product - forgetting * z).store(&mut z_rate[n * Self::WIDTH..]);
         });
+    }
+
+    /// Whether a row of the regressor is live anywhere in the columns of group `g`.
+    #[inline(always)]
+    fn is_live(row: usize, g: usize) -> bool {
+        let mut is_live = false;
+        for k in g * Self::WIDTH..P.min((g + 1) * Self::WIDTH) {
+            is_live |= R::LIVE[row][k];
+        }
+        is_live
+    }
+
+    /// The numbers of the columns of group `g`, zeros beyond the last.
+    #[inline(always)]
+    fn neighbours(g: usize, number: impl Fn(usize) -> T) -> T::Pack {
+        let mut numbers = [T::zero(); MOST_PACKED];
+        for lane in 0..Self::WIDTH {
+            if g * Self::WIDTH + lane < P {
+                numbers[lane] = number(g * Self::WIDTH + lane);
+            }
+        }
+        T::Pack::load(&numbers)
+    }
+
+    /// Entry (i, j) of Z.
+    pub fn correlation(states: &[T], i: usize, j: usize) -> T {
+        Self::entry(&states[Self::W..], i, j)
+    }
+
+    /// Entry (i, j) of Z, given its states.
+    #[inline(always)]
+    fn entry(z: &[T], i: usize, j: usize) -> T {
+        match Self::LAYOUT.at[i][j] {
+            NONE => T::zero(),
+            n => z[n],
+        }
+    }
+
+    /// Writes the states as snapshots hold them: w, then the live upper triangle of Z.
+    pub fn write_plain(states: &[T], plain: &mut [T]) {
+        let (w, z) = states.split_at(Self::W);
+        plain[..P].copy_from_slice(&w[..P]);
+        for (number, &(i, j)) in plain[P..].iter_mut().zip(R::PAIRS) {
+            *number = Self::entry(z, i, j);
+        }
+    }
+
+    /// Writes the states from what [`Self::write_plain`] wrote.
+    pub fn read_plain(plain: &[T], states: &mut [T]) {
+        states.fill(T::zero());
+        let (w, z) = states.split_at_mut(Self::W);
+        w[..P].copy_from_slice(&plain[..P]);
+        for (number, &(i, j)) in plain[P..].iter().zip(R::PAIRS) {
+            z[Self::LAYOUT.at[i][j]] = *number;
+            z[Self::LAYOUT.at[j][i]] = *number;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robots::{CrsA465, Pendulum, TwoLink};
+    use crate::scalar::Kernel;
+    use nalgebra::SMatrix;
+    use proptest::prelude::*;
+
+    /// A memory somewhere, with gain 1.3 and forgetting rate 0.7.
+    struct Given<R, const N: usize, const P: usize> {
+        filtered: Regressor<f64, N, P>,
+        torque: SVector<f64, N>,
+        theta_hat: SVector<f64, P>,
+        theta_hat_rate: SVector<f64, P>,
+        /// w, then the live upper triangle of Z.
+        states: Vec<f64>,
+        robot: PhantomData<R>,
+    }
+
+    impl<R: Robot<N, P>, const N: usize, const P: usize> Given<R, N, P> {
+        fn new(numbers: &[f64]) -> Self {
+            let mut numbers = numbers.iter().copied();
+            let mut next = || numbers.next().unwrap();
+            Self {
+                filtered: Regressor::from_fn(|i, k| if R::LIVE[i][k] { next() } else { 0.0 }),
+                torque: SVector::from_fn(|_, _| next()),
+                theta_hat: SVector::from_fn(|_, _| next()),
+                theta_hat_rate: SVector::from_fn(|_, _| next()),
+                states: (0..P + R::PAIRS.len()).map(|_| next()).collect(),
+                robot: PhantomData,
+            }
+        }
+
+        /// The derivative of the plain states, from whole matrices.
+        fn expected(&self) -> Vec<f64> {
+            let (w, triangle) = self.states.split_at(P);
+            let mut z = SMatrix::<f64, P, P>::zeros();
+            for (number, &(i, j)) in triangle.iter().zip(R::PAIRS) {
+                (z[(i, j)], z[(j, i)]) = (*number, *number);
+            }
+            let (y, w) = (self.filtered, SVector::<f64, P>::from_column_slice(w));
+            let error = y * self.theta_hat - self.torque;
+            let w_rate = y.transpose() * error * 1.3 - w * 0.7 + z * self.theta_hat_rate;
+            let z_rate = y.transpose() * y * 1.3 - z * 0.7;
+            w_rate.iter().copied().chain(R::PAIRS.iter().map(|&at| z_rate[at])).collect()
+        }
+    }
+
+    /// The derivative of the plain states, in numbers of kind `T`.
+    struct In<'a, T, R, const N: usize, const P: usize>(&'a Given<R, N, P>, PhantomData<T>);
+
+    impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Kernel for In<'_, T, R, N, P> {
+        type Output = Vec<f64>;
+
+        fn run(self) -> Vec<f64> {
+            let plain: Vec<_> = self.0.states.iter().map(|x| T::splat(*x)).collect();
+            // What is not written is not zero.
+            let ones = |len: usize| vec![T::one(); len];
+            let len = PredictionMemory::<R, T, N, P>::STATES;
+            let (mut states, mut rate, mut written) = (ones(len), ones(len), ones(plain.len()));
+            PredictionMemory::<R, T, N, P>::read_plain(&plain, &mut states);
+            PredictionMemory::<R, T, N, P>::write_plain(&states, &mut written);
+            assert!(written == plain, "what is read is written again");
+            PredictionMemory::<R, T, N, P>::new(T::splat(1.3), T::splat(0.7)).derivative(
+                &self.0.filtered.map(T::splat),
+                &self.0.torque.map(T::splat),
+                self.0.theta_hat.map(T::splat).as_slice(),
+                self.0.theta_hat_rate.map(T::splat).as_slice(),
+                &states,
+                &mut rate,
+            );
+            PredictionMemory::<R, T, N, P>::write_plain(&rate, &mut written);
+            // Numbers that are kept twice stay the same.
+            let mut again = ones(len);
+            PredictionMemory::<R, T, N, P>::read_plain(&written, &mut again);
+            assert!(rate == again, "{rate:?}");
+            written.into_iter().map(|number| number.lane(0)).collect()
+        }
+    }
+
+    fn examine<R: Robot<N, P>, const N: usize, const P: usize>(numbers: &[f64]) {
+        let given = Given::<R, N, P>::new(numbers);
+        let alone = f64::compiled(In::<f64, R, N, P>(&given, PhantomData));
+        for (expected, found) in given.expected().into_iter().zip(&alone) {
+            assert!((expected - found).abs() < 1e-11, "{found} instead of {expected}");
+        }
+        #[cfg(target_arch = "x86_64")]
+        if crate::lanes::OneOfFour::is_here() {
+            use crate::lanes::OneOfFour;
+            let neighbours = OneOfFour::compiled(In::<OneOfFour, R, N, P>(&given, PhantomData));
+            assert!(alone.into_iter().map(f64::to_bits).eq(neighbours.into_iter().map(f64::to_bits)));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn vectors_of_neighbours_have_the_bits_of_numbers_alone(numbers in prop::collection::vec(-10.0..10.0_f64, 250)) {
+            examine::<CrsA465, 3, 18>(&numbers);
+            examine::<TwoLink, 2, 11>(&numbers);
+            examine::<Pendulum, 1, 4>(&numbers);
+        }
     }
 }

@@ -72,13 +72,11 @@ struct Stage<'a, T> {
 
 impl<T: Scalar> Kernel for Stage<'_, T> {
     type Output = ();
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) {
-        let h = T::splat(self.h);
-        for ((stage, x), k) in self.out.iter_mut().zip(self.x).zip(self.slope) {
-            *stage = *x + h * *k;
-        }
+        stage(self.out, self.x, T::splat(self.h), self.slope);
     }
 }
 
@@ -93,14 +91,11 @@ struct NextStage<'a, T> {
 
 impl<T: Scalar> Kernel for NextStage<'_, T> {
     type Output = ();
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) {
-        let (h, two) = (T::splat(self.h), T::splat(2.0));
-        for (((stage, sum), x), k) in self.out.iter_mut().zip(self.sum).zip(self.x).zip(self.slope) {
-            *sum += two * *k;
-            *stage = *x + h * *k;
-        }
+        next_stage(self.out, self.sum, self.x, T::splat(self.h), self.slope);
     }
 }
 
@@ -115,20 +110,67 @@ struct End<'a, T> {
 
 impl<T: Scalar> Kernel for End<'_, T> {
     type Output = T;
+    const LOOPS_OVER_NUMBERS: bool = true;
 
     #[inline(always)]
     fn run(self) -> T {
-        let (sixth, zero) = (T::splat(self.h / 6.0), T::zero());
-        // Zero times a number that is not finite is no number; four sums side by side have less to wait for.
-        let mut zeros = [zero; 4];
-        for (n, (((end, x), sum), k)) in self.out.iter_mut().zip(self.x).zip(self.sum).zip(self.slope).enumerate() {
-            // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection
-            // does), several small increments would each be lost and leave it beside the equilibrium.
-            *end = *x + sixth * (*sum + *k);
-            zeros[n % 4] += *end * zero;
-        }
-        (zeros[0] + zeros[1]) + (zeros[2] + zeros[3])
+        end(self.out, self.x, T::splat(self.h / 6.0), self.sum, self.slope);
+        zero_where_finite(self.out)
     }
+}
+
+// Functions of their own, because the compiler knows of arguments that they do not overlap, and of a structure's fields it does
+// not: without, it works on one number at a time.
+
+#[inline(always)]
+fn stage<T: Scalar>(out: &mut [T], x: &[T], h: T, slope: &[T]) {
+    let len = out.len();
+    let (x, slope) = (&x[..len], &slope[..len]);
+    for i in 0..len {
+        out[i] = x[i] + h * slope[i];
+    }
+}
+
+#[inline(always)]
+fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T]) {
+    let (len, two) = (out.len(), T::splat(2.0));
+    let (sum, x, slope) = (&mut sum[..len], &x[..len], &slope[..len]);
+    for i in 0..len {
+        sum[i] += two * slope[i];
+        out[i] = x[i] + h * slope[i];
+    }
+}
+
+#[inline(always)]
+fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) {
+    let len = out.len();
+    let (x, sum, slope) = (&x[..len], &sum[..len], &slope[..len]);
+    // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection does),
+    // several small increments would each be lost and leave it beside the equilibrium.
+    for i in 0..len {
+        out[i] = x[i] + sixth * (sum[i] + slope[i]);
+    }
+}
+
+/// Zero where every number is finite: zero times a number that is not is no number.
+#[inline(always)]
+fn zero_where_finite<T: Scalar>(numbers: &[T]) -> T {
+    // Several sums side by side have less to wait for.
+    let mut zeros = [T::zero(); 8];
+    let (blocks, rest) = numbers.as_chunks::<8>();
+    for n in 0..blocks.len() {
+        for i in 0..8 {
+            zeros[i] += blocks[n][i] * T::zero();
+        }
+    }
+    for i in 0..rest.len() {
+        zeros[i] += rest[i] * T::zero();
+    }
+    let mut all = T::zero();
+    for i in 0..8 {
+        all += zeros[i];
+    }
+    all
 }
 
 #[cfg(test)]
@@ -158,9 +200,9 @@ mod tests {
     #[test]
     fn tells_what_is_not_finite() {
         for bad in [f64::NAN, f64::INFINITY] {
-            for n in 0..6 {
-                let mut x = vec![1.0; 6];
-                let finite = Rk4::new(6).step(0.0, 1.0, &mut x, |_, _, rate| {
+            for n in 0..11 {
+                let mut x = vec![1.0; 11];
+                let finite = Rk4::new(11).step(0.0, 1.0, &mut x, |_, _, rate| {
                     rate.fill(0.0);
                     rate[n] = bad;
                 });

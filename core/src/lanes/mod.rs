@@ -4,6 +4,8 @@
 //! machine has is asked once, at run time ([`widths`]); vector instructions are used only inside [`Scalar::compiled`].
 
 mod one;
+#[cfg(target_arch = "x86_64")]
+mod one_of_four;
 #[cfg(test)]
 mod tests;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -11,6 +13,8 @@ mod wasm;
 #[cfg(target_arch = "x86_64")]
 mod x86_64;
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) use one_of_four::OneOfFour;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 pub(crate) use wasm::F64x2;
 #[cfg(target_arch = "x86_64")]
@@ -59,51 +63,11 @@ pub(crate) fn with_lanes<W: WithLanes>(width: usize, work: W) -> Option<W::Outpu
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 macro_rules! impl_scalar {
     ($lanes:ident, $width:literal, $mask:ty) => {
-        impl_scalar!($lanes, Add, add, AddAssign, add_assign);
-        impl_scalar!($lanes, Sub, sub, SubAssign, sub_assign);
-        impl_scalar!($lanes, Mul, mul, MulAssign, mul_assign);
-        impl_scalar!($lanes, Div, div, DivAssign, div_assign);
-
-        impl std::ops::Neg for $lanes {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                self.negated()
-            }
-        }
-
-        impl num_traits::Zero for $lanes {
-            #[inline(always)]
-            fn zero() -> Self {
-                Self::repeat(0.0)
-            }
-            #[inline(always)]
-            fn is_zero(&self) -> bool {
-                self.to_array() == [0.0; $width]
-            }
-        }
-
-        impl num_traits::One for $lanes {
-            #[inline(always)]
-            fn one() -> Self {
-                Self::repeat(1.0)
-            }
-        }
-
-        impl PartialEq for $lanes {
-            fn eq(&self, other: &Self) -> bool {
-                self.to_array() == other.to_array()
-            }
-        }
-
-        impl std::fmt::Debug for $lanes {
-            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                self.to_array().fmt(f)
-            }
-        }
+        impl_scalar!(@operators $lanes, $width);
 
         impl Scalar for $lanes {
             type Mask = $mask;
+            type Pack = Self;
             const LANES: usize = $width;
 
             #[inline(always)]
@@ -159,6 +123,50 @@ macro_rules! impl_scalar {
             #[inline(always)]
             fn select(mask: $mask, if_true: Self, if_false: Self) -> Self {
                 Self::choose(mask, if_true, if_false)
+            }
+        }
+    };
+    (@operators $lanes:ident, $width:literal) => {
+        impl_scalar!($lanes, Add, add, AddAssign, add_assign);
+        impl_scalar!($lanes, Sub, sub, SubAssign, sub_assign);
+        impl_scalar!($lanes, Mul, mul, MulAssign, mul_assign);
+        impl_scalar!($lanes, Div, div, DivAssign, div_assign);
+
+        impl std::ops::Neg for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.negated()
+            }
+        }
+
+        impl num_traits::Zero for $lanes {
+            #[inline(always)]
+            fn zero() -> Self {
+                Self::repeat(0.0)
+            }
+            #[inline(always)]
+            fn is_zero(&self) -> bool {
+                self.to_array() == [0.0; $width]
+            }
+        }
+
+        impl num_traits::One for $lanes {
+            #[inline(always)]
+            fn one() -> Self {
+                Self::repeat(1.0)
+            }
+        }
+
+        impl PartialEq for $lanes {
+            fn eq(&self, other: &Self) -> bool {
+                self.to_array() == other.to_array()
+            }
+        }
+
+        impl std::fmt::Debug for $lanes {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                self.to_array().fmt(f)
             }
         }
     };

@@ -8,6 +8,7 @@ use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT, TANH_LIMIT};
 
 impl Scalar for f64 {
     type Mask = bool;
+    type Pack = Self;
     const LANES: usize = 1;
 
     #[inline(always)]
@@ -20,6 +21,11 @@ impl Scalar for f64 {
     }
     #[inline(always)]
     fn compiled<K: Kernel>(kernel: K) -> K::Output {
+        // A number alone does as well without; loops over many, which the compiler turns into vectors, do not.
+        #[cfg(target_arch = "x86_64")]
+        if K::LOOPS_OVER_NUMBERS && super::OneOfFour::is_here() {
+            return super::F64x4::compiled(kernel);
+        }
         kernel.run()
     }
     #[inline(always)]

@@ -75,6 +75,11 @@ proptest! {
             let different = with_lanes(*width, SameBits { x: &x, y: &y }).unwrap();
             prop_assert!(different.is_empty(), "{width} lanes: {different:?}");
         }
+        #[cfg(target_arch = "x86_64")]
+        if super::OneOfFour::is_here() {
+            let different = SameBits { x: &x, y: &y }.with::<super::OneOfFour>();
+            prop_assert!(different.is_empty(), "one of four: {different:?}");
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Lanes of x86-64: 2 with SSE2, which every such machine has, 4 with AVX2, 8 with AVX-512.
 //!
-//! The one place in the core with unsafe code: `std::arch` asks the caller to know that the machine has an instruction.
-//! Here [`super::with_lanes`] asks first, the types are the crate's own, and nothing else makes a value of them
-//! (docs/decisions/0015-lanes.md).
+//! The unsafe code is that `std::arch` asks the caller to know that the machine has an instruction. Here
+//! [`super::with_lanes`] asks first, or who works with [`super::OneOfFour`]; the types are the crate's own, and nothing else
+//! makes a value of them (docs/decisions/0015-lanes.md).
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
 use super::impl_scalar;
@@ -39,7 +39,7 @@ macro_rules! lanes {
         // the head of this file. Arrays and vectors of as many numbers have the same layout.
         impl $lanes {
             #[inline(always)]
-            fn repeat(value: f64) -> Self {
+            pub(super) fn repeat(value: f64) -> Self {
                 unsafe { Self($repeat(value)) }
             }
             #[inline(always)]

@@ -10,6 +10,7 @@ mod kinematics;
 mod payload;
 mod pendulum;
 mod structure;
+mod symmetric;
 mod two_link;
 
 pub use a465::CrsA465;
@@ -18,6 +19,7 @@ pub use kinematics::{ArmPoints, Kinematics, Point, distance_m};
 pub use payload::payload_parameters;
 pub use pendulum::Pendulum;
 pub use structure::{count_entries, count_pairs, list_entries, list_pairs, pattern_to_live};
+pub use symmetric::{NONE, SymmetricLayout};
 pub use two_link::TwoLink;
 
 use crate::scalar::Scalar;

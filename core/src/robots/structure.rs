@@ -54,7 +54,7 @@ pub const fn list_entries<const N: usize, const P: usize, const L: usize>(
 }
 
 /// Whether two parameters meet in a row, so that entry (i, j) of `YᵀY` can differ from zero.
-const fn share_row<const N: usize, const P: usize>(live: &[[bool; P]; N], i: usize, j: usize) -> bool {
+pub(super) const fn share_row<const N: usize, const P: usize>(live: &[[bool; P]; N], i: usize, j: usize) -> bool {
     let mut row = 0;
     while row < N {
         if live[row][i] && live[row][j] {

@@ -11,9 +11,13 @@ use crate::control::{CoriolisVelocity, SlidingFeedback};
 use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::OneOfFour;
 use crate::recording::{Columns, Recording};
 use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
+#[cfg(target_arch = "x86_64")]
+use crate::simulation::AsNumbers;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
 use crate::trajectories::Remembered;
 use crate::velocity::{Measured, ModelFreeObserver, VelocitySource};
@@ -72,6 +76,18 @@ pub(super) fn closed_loop<R: Robot<N, P>, T: Scalar, const N: usize, const P: us
             unreachable!("what is beyond the paper is built by `beyond`, and never in lanes")
         }
     }
+}
+
+/// The closed loop of one document alone, in the kind of number that this machine is fastest with.
+pub(super) fn closed_loop_alone<R: Robot<N, P>, const N: usize, const P: usize>(
+    document: &ScenarioDocument,
+) -> Box<dyn StateSpace<f64>> {
+    // The adaptive integrator weighs every state, so for it nothing may be kept twice or as padding.
+    #[cfg(target_arch = "x86_64")]
+    if document.integration.method == MethodDocument::Rk4 && OneOfFour::is_here() {
+        return Box::new(AsNumbers(closed_loop::<R, OneOfFour, N, P>(&[document])));
+    }
+    closed_loop::<R, f64, N, P>(&[document])
 }
 
 /// Slotine and Li: measured velocity, gradient adaptation. Source: paper eq. (3) to (7).

@@ -295,7 +295,7 @@ impl Scenario {
             if beyond::is_beyond(&self.document) {
                 beyond::build::closed_loop::<R, N, P>(&self.document)
             } else {
-                build::closed_loop::<R, f64, N, P>(&[&self.document])
+                build::closed_loop_alone::<R, N, P>(&self.document)
             }
         })
     }

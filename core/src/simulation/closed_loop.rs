@@ -80,7 +80,7 @@ where
 
     #[inline(always)]
     fn evaluate(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
-        if T::LANES == 1 { self.evaluate_apart(desired, x) } else { self.evaluate_within(desired, x) }
+        if T::IS_PLAIN { self.evaluate_apart(desired, x) } else { self.evaluate_within(desired, x) }
     }
 
     /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
@@ -163,6 +163,22 @@ where
 {
     fn len(&self) -> usize {
         self.layout().len
+    }
+
+    fn plain_len(&self) -> usize {
+        self.layout().adaptation + self.adaptation.plain_states()
+    }
+
+    fn write_plain(&self, x: &[T], plain: &mut [T]) {
+        let law = self.layout().adaptation;
+        plain[..law].copy_from_slice(&x[..law]);
+        self.adaptation.write_plain(&x[law..], &mut plain[law..]);
+    }
+
+    fn read_plain(&self, plain: &[T], x: &mut [T]) {
+        let law = self.layout().adaptation;
+        x[..law].copy_from_slice(&plain[..law]);
+        self.adaptation.read_plain(&plain[law..], &mut x[law..]);
     }
 
     fn initialize(&self, x: &mut [T]) {

@@ -3,6 +3,8 @@
 //! Stepping sees only a [`StateSpace`]; [`ClosedLoop`] is the one that a robot and a scheme make. Knows nothing of scenarios.
 //! A diverging run is an [`Outcome`], not an error.
 
+#[cfg(target_arch = "x86_64")]
+mod as_numbers;
 mod closed_loop;
 mod controller;
 mod imperfect_loop;
@@ -12,6 +14,8 @@ mod recorder;
 mod run;
 mod snapshot;
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) use as_numbers::AsNumbers;
 pub use closed_loop::{ClosedLoop, InitialVelocity};
 pub use controller::Controller;
 pub use imperfect_loop::ImperfectLoop;
@@ -31,6 +35,24 @@ pub trait StateSpace<T: Scalar>: Send {
     /// Whether there is nothing to integrate.
     fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+    /// Number of states as [`Self::write_plain`] writes them.
+    fn plain_len(&self) -> usize {
+        self.len()
+    }
+    /// Writes a state as snapshots hold it and people read it: without what is kept for vector instructions only.
+    fn write_plain(&self, x: &[T], plain: &mut [T]) {
+        plain.copy_from_slice(x);
+    }
+    /// Writes the state from what [`Self::write_plain`] wrote.
+    fn read_plain(&self, plain: &[T], x: &mut [T]) {
+        x.copy_from_slice(plain);
+    }
+    /// [`Self::write_plain`], into a vector.
+    fn plain(&self, x: &[T]) -> Vec<T> {
+        let mut plain = vec![T::zero(); self.plain_len()];
+        self.write_plain(x, &mut plain);
+        plain
     }
     /// Writes the initial state.
     fn initialize(&self, x: &mut [T]);

@@ -80,7 +80,7 @@ impl Simulation {
         run.step = snapshot.step;
         run.time_s = snapshot.time_s;
         run.evaluations = snapshot.evaluations;
-        run.state = snapshot.state;
+        run.system.read_plain(&snapshot.state, &mut run.state);
         let (expected, found) = (settings.columns.width(), snapshot.rows.len());
         run.recorder.recording = Recording::from_rows(settings.columns, snapshot.rows).ok_or(SnapshotError::Shape {
             what: "rows",
@@ -104,8 +104,8 @@ impl Simulation {
             let found = format!("{} of core {}", snapshot.format, snapshot.core_version);
             return Err(SnapshotError::OtherVersion { found });
         }
-        if snapshot.state.len() != self.state.len() {
-            return shape("state", self.state.len(), snapshot.state.len());
+        if snapshot.state.len() != self.system.plain_len() {
+            return shape("state", self.system.plain_len(), snapshot.state.len());
         }
         if !snapshot.state.iter().chain(&snapshot.rows).all(|x| x.is_finite()) {
             return inconsistent("numbers that are not finite");
@@ -148,7 +148,7 @@ impl Simulation {
                 Stepper::Dopri5(dopri5) => dopri5.step_s(),
             },
             evaluations: self.evaluations,
-            state: self.state.clone(),
+            state: self.state(),
             rows: self.recorder.recording.rows().to_vec(),
             outcome: self.outcome,
         }
@@ -194,9 +194,9 @@ impl Simulation {
         self.evaluations
     }
 
-    /// State vector; joint angles (rad) come first.
-    pub fn state(&self) -> &[f64] {
-        &self.state
+    /// State vector, as snapshots hold it; joint angles (rad) come first.
+    pub fn state(&self) -> Vec<f64> {
+        self.system.plain(&self.state)
     }
 
     /// Estimates θ̂ now.
@@ -224,9 +224,10 @@ impl Simulation {
         let is_sampled = self.sample_on_grid()?;
         let start_s = self.time_s;
         self.before.copy_from_slice(&self.state);
-        self.time_s = self.integrate(start_s, is_sampled)?;
+        let (end_s, is_finite) = self.integrate(start_s, is_sampled)?;
+        self.time_s = end_s;
         self.step += 1;
-        check(&*self.system, self.time_s, &self.state, &mut self.error)
+        self.check(is_finite)
             .and_then(|()| self.sample(start_s, self.time_s))
             .inspect_err(|_| self.state.copy_from_slice(&self.before))
     }
@@ -257,8 +258,9 @@ impl Simulation {
         }
     }
 
-    /// Moves the state on from `start_s`; gives the time reached. `knows_slope`: the integrator has the first slope already.
-    fn integrate(&mut self, start_s: f64, knows_slope: bool) -> Result<f64, Divergence> {
+    /// Moves the state on from `start_s`; gives the time reached and whether the state is finite. `knows_slope`: the
+    /// integrator has the first slope already.
+    fn integrate(&mut self, start_s: f64, knows_slope: bool) -> Result<(f64, bool), Divergence> {
         let (system, evaluations) = (&*self.system, &mut self.evaluations);
         let counted = |t: f64, x: &[f64], rate: &mut [f64]| {
             *evaluations += 1;
@@ -267,18 +269,29 @@ impl Simulation {
         let end_s = self.settings.step_time_s(self.step + 1);
         match &mut self.stepper {
             Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
-                if knows_slope {
-                    rk4.step_from_slope(start_s, end_s, &mut self.state, counted);
+                let finite = if knows_slope {
+                    let finite = rk4.step_from_slope(start_s, end_s, &mut self.state, counted);
                     *evaluations += 1;
+                    finite
                 } else {
-                    rk4.step(start_s, end_s, &mut self.state, counted);
-                }
-                Ok(end_s)
+                    rk4.step(start_s, end_s, &mut self.state, counted)
+                };
+                Ok((end_s, finite == 0.0))
             }
             Stepper::Dopri5(dopri5) => dopri5
                 .step(start_s, self.settings.duration_s, &mut self.state, counted)
+                .map(|time_s| (time_s, are_finite(&self.state)))
                 .map_err(|_| Divergence::StepTooSmall),
         }
+    }
+
+    /// Whether the state is finite and near its trajectory.
+    fn check(&mut self, is_finite: bool) -> Result<(), Divergence> {
+        if !is_finite {
+            return Err(Divergence::NotFinite);
+        }
+        self.system.tracking_error(self.time_s, &self.state, &mut self.error);
+        exceeded_joint(self.error.iter().copied()).map_or(Ok(()), |joint| Err(Divergence::TrackingError(joint)))
     }
 
     /// Takes the samples inside the step just made, and the end of the run.
@@ -302,15 +315,6 @@ impl Simulation {
         }
         if end_s >= self.settings.duration_s { recorder.record(system, end_s, state) } else { Ok(()) }
     }
-}
-
-/// Whether the state is finite and near its trajectory.
-fn check(system: &dyn StateSpace<f64>, time_s: f64, x: &[f64], error: &mut [f64]) -> Result<(), Divergence> {
-    if !are_finite(x) {
-        return Err(Divergence::NotFinite);
-    }
-    system.tracking_error(time_s, x, error);
-    exceeded_joint(error.iter().copied()).map_or(Ok(()), |joint| Err(Divergence::TrackingError(joint)))
 }
 
 /// The first joint (1 is the first) whose tracking error is beyond what counts as tracking.

@@ -96,6 +96,7 @@ impl One for Dual {
 
 impl Scalar for Dual {
     type Mask = bool;
+    type Pack = Self;
     const LANES: usize = 1;
 
     fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {

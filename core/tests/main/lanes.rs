@@ -5,6 +5,7 @@ use adaptarm_core::scenario::{
     Group, InitialVelocityDocument, MethodDocument, OutcomeKind, Run, Scenario, ScenarioDocument, Scheme,
     SchemeDocument, SideBySide, TrajectoryDocument, TrajectoryKind, run_each,
 };
+use adaptarm_core::simulation::Simulation;
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
@@ -121,6 +122,34 @@ fn groups_paused_at_any_step_give_the_same_bits() {
     }
     let (one, other) = (varied(Scheme::Proposed, 1), varied(Scheme::Proposed, 2));
     assert!(Group::resume(&[&one, &other], &Group::start(&[&other, &one]).snapshots()).is_err());
+}
+
+/// Alone a run keeps its states in another order than in lanes; its snapshots do not show it.
+#[test]
+fn a_run_left_alone_goes_on_in_a_lane_and_alone_again() {
+    for scheme in Scheme::ALL {
+        let scenarios = [varied(scheme, 0), varied(scheme, 1)];
+        let members: Vec<_> = scenarios.iter().collect();
+        for &width in lanes::widths().iter().filter(|&&width| width > 1) {
+            let mut alone: Vec<_> = scenarios.iter().map(Scenario::start).collect();
+            for run in &mut alone {
+                assert!(!run.advance(100));
+            }
+            let snapshots = alone.iter().map(Simulation::snapshot).collect();
+            let mut together = SideBySide::resume(&members, width, snapshots).unwrap();
+            together.advance(100);
+            for run in &mut alone {
+                assert!(!run.advance(100));
+            }
+            let snapshots = together.snapshots();
+            for ((scenario, snapshot), run) in scenarios.iter().zip(snapshots).zip(&alone) {
+                assert!(snapshot == run.snapshot(), "{} in {width} lanes", scheme.id());
+                let mut again = scenario.resume(snapshot).unwrap();
+                again.advance(u64::MAX);
+                assert!(scenario.finish(again) == scenario.run(), "{} in {width} lanes", scheme.id());
+            }
+        }
+    }
 }
 
 #[test]
