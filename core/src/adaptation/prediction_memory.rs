@@ -4,7 +4,7 @@
 //! `w = Z (θ̂ − θ)` as long as `τf = Yf θ`. Tang and Arteaga's g is the same w (their eq. prints `Γ1 Z`, right only for a
 //! scalar Γ1). Z is symmetric and has zeros: [`SymmetricLayout`] says which of its numbers are kept and where.
 
-use crate::regressor::model_torque;
+use crate::regressor::{gradient, model_torque};
 use crate::robots::{NONE, Regressor, Robot, SymmetricLayout};
 use crate::scalar::{MOST_PACKED, Pack, Scalar};
 use crate::unroll::unrolled;
@@ -47,13 +47,62 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         states: &[T],
         rate: &mut [T],
     ) {
-        let repeat = <T::Pack as Pack<T>>::repeat;
         let prediction_error = model_torque::<R, T, N, P>(filtered, theta_hat) - filtered_torque;
         let (w, z) = states[..Self::STATES].split_at(Self::W);
         let (w_rate, z_rate) = rate[..Self::STATES].split_at_mut(Self::W);
         let theta_hat_rate = &theta_hat_rate[..P];
-        let (gain, forgetting) = (repeat(self.gain), repeat(self.forgetting));
+        if Self::WIDTH == 1 {
+            self.number_by_number(filtered, &prediction_error, theta_hat_rate, (w, z), (w_rate, z_rate));
+        } else {
+            self.vector_by_vector(filtered, &prediction_error, theta_hat_rate, (w, z), (w_rate, z_rate));
+        }
+    }
 
+    /// Once over the upper triangle, each number used in its row and in its column: fewest operations.
+    #[inline(always)]
+    fn number_by_number(
+        &self,
+        filtered: &Regressor<T, N, P>,
+        prediction_error: &SVector<T, N>,
+        theta_hat_rate: &[T],
+        (w, z): (&[T], &[T]),
+        (w_rate, z_rate): (&mut [T], &mut [T]),
+    ) {
+        let correlation = gradient::<R, T, N, P>(filtered, prediction_error);
+        for k in 0..P {
+            w_rate[k] = self.gain * correlation[k] - self.forgetting * w[k];
+        }
+        unrolled!(R::PAIRS.len(), n => {
+            let (i, j) = R::PAIRS[n];
+            let mut product = T::zero();
+            let mut is_first = true;
+            for row in 0..N {
+                if R::LIVE[row][i] && R::LIVE[row][j] {
+                    let term = filtered[(row, i)] * filtered[(row, j)];
+                    product = if is_first { term } else { product + term };
+                    is_first = false;
+                }
+            }
+            z_rate[n] = self.gain * product - self.forgetting * z[n];
+            w_rate[i] += z[n] * theta_hat_rate[j];
+            if i != j {
+                w_rate[j] += z[n] * theta_hat_rate[i];
+            }
+        });
+    }
+
+    /// The same sums, each in the same order, for neighbouring parameters at once (docs/decisions/0021-neighbours.md).
+    #[inline(always)]
+    fn vector_by_vector(
+        &self,
+        filtered: &Regressor<T, N, P>,
+        prediction_error: &SVector<T, N>,
+        theta_hat_rate: &[T],
+        (w, z): (&[T], &[T]),
+        (w_rate, z_rate): (&mut [T], &mut [T]),
+    ) {
+        let repeat = <T::Pack as Pack<T>>::repeat;
+        let (gain, forgetting) = (repeat(self.gain), repeat(self.forgetting));
         let mut rows = [[repeat(T::zero()); P]; N];
         let mut sum = [repeat(T::zero()); P];
         unrolled!(Self::LAYOUT.groups, g => {
