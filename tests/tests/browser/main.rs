@@ -30,7 +30,7 @@ fn main() {
     }
     let mut arguments = Arguments::from_args();
     // A trial waits more than it computes; what is measured in a soak is measured alone.
-    arguments.test_threads = Some(if machine::soak() { 1 } else { 2 });
+    arguments.test_threads.get_or_insert(if machine::soak() { 1 } else { 2 });
     let missing = driver::missing();
     let ignored = switched_on("ADAPTARM_NO_BROWSER") || missing.is_some() && !switched_on("REQUIRE_BROWSER");
     if let Some(program) = missing.filter(|_| ignored) {
