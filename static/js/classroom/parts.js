@@ -1,9 +1,10 @@
 // Pieces that the classroom's pages are made of: cards, tables, badges, messages, something to copy, rendered text.
 
 import { announce } from "../announce.js";
-import { element } from "../dom.js";
+import { element, symbol } from "../dom.js";
+import { formatExact } from "../format.js";
 import { locale } from "../jobs/times.js";
-import { texts } from "../strings/classroom.js";
+import { localized, texts } from "../strings/classroom.js";
 import { explain } from "./explain.js";
 
 let named = 0;
@@ -31,6 +32,12 @@ export function table({ caption, heads, rows, className = "" }) {
 
 /** People in the order of their names, as the reader's language has it. */
 export const byName = (people) => people.toSorted((one, other) => one.name.localeCompare(other.name, locale(), { numeric: true }));
+
+/** What was handed in, in one line: each gain as the exercise calls it, with its unit. */
+export function gainsLine(moves, gains) {
+  const said = moves.map(({ name, label, unit = "" }) => [...symbol(localized(label)), `:\u00a0${formatExact(gains[name])}${unit && `\u00a0${unit}`}`]);
+  return element("p", { class: "help gains-line" }, said.flatMap((one, n) => (n === 0 ? one : [" · ", ...one])));
+}
 
 /** Facts by name; those without a value are left out. */
 export function facts(pairs) {

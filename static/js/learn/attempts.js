@@ -1,23 +1,24 @@
 // Everything that was handed in: gains to take back, points, and receipts.
 
 import { client } from "../classroom/client.js";
-import { badge, points, pointsOf, showError } from "../classroom/parts.js";
+import { badge, gainsLine, points, pointsOf, showError } from "../classroom/parts.js";
 import { moment } from "../classroom/times.js";
 import { element } from "../dom.js";
 import { download, fileName } from "../download.js";
-import { formatExact } from "../format.js";
 import { texts } from "../strings/classroom.js";
 
 const own = texts.attempts;
 
-/** The list, newest first; `takeBack(gains)` is called when gains are wanted again. */
+/** The list, newest first, of an exercise with these moves; `takeBack(gains)` is called when gains are wanted again. */
 export class Attempts {
   node = element("ol", { class: "attempt-list", reversed: true });
   #of;
+  #moves;
   #takeBack;
 
-  constructor(of, takeBack) {
+  constructor(of, moves, takeBack) {
     this.#of = of;
+    this.#moves = moves;
     this.#takeBack = takeBack;
   }
 
@@ -55,12 +56,9 @@ export class Attempts {
         element("div", { class: "actions" }, take, state === "graded" ? receipt : null),
       ),
       element("p", { class: "help" }, moment(submitted_at), late_percent > 0 ? `, ${own.late(points(late_percent))}` : ""),
-      element("p", { class: "help gains-line" }, gainsLine(gains)),
+      gainsLine(this.#moves, gains),
       state === "returned" ? element("p", {}, own.returned(reason ?? "")) : null,
       failure,
     );
   }
 }
-
-/** Gains in one line. */
-export const gainsLine = (gains) => Object.entries(gains).map(([name, value]) => `${name} = ${formatExact(value)}`).join(", ");

@@ -106,7 +106,7 @@ export class ExerciseView {
     this.#gains = gains;
     this.#moves = new Moves(exercise.moves, gains, (wanted, move) => this.#change(wanted, move));
     this.#panel = new SubmitPanel(this.#submission, this.#moves);
-    this.#history = new Attempts(this.#assignment.points, (earlier) => this.#takeBack(earlier));
+    this.#history = new Attempts(this.#assignment.points, exercise.moves, (earlier) => this.#takeBack(earlier));
     this.#board = leaderboardCard(this.#assignment);
     const pinned = element("section", { class: "pinned", "aria-label": strings.pinnedFigure });
     const controls = element(

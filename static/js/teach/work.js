@@ -2,12 +2,11 @@
 
 import { client } from "../classroom/client.js";
 import { field, form, momentField, numberField } from "../classroom/form.js";
-import { badge, card, facts, points, pointsOf, table } from "../classroom/parts.js";
+import { badge, card, facts, gainsLine, points, pointsOf, table } from "../classroom/parts.js";
 import { moment, momentElement } from "../classroom/times.js";
 import { View } from "../classroom/view.js";
 import { element } from "../dom.js";
 import { confirmButton } from "../jobs/confirm.js";
-import { gainsLine } from "../learn/attempts.js";
 import { localized, texts } from "../strings/classroom.js";
 import { replayPart } from "./replay.js";
 
@@ -61,8 +60,8 @@ export class WorkView extends View {
     return [until, attempts > 0 ? `, ${own.moreAttempts(attempts)}` : "", comment ? `: ${comment}` : ""];
   }
 
-  #attempts({ attempts, metrics }, assignment) {
-    const items = attempts.toReversed().map((attempt) => attemptItem(attempt, assignment, metrics));
+  #attempts({ attempts, metrics, moves }, assignment) {
+    const items = attempts.toReversed().map((attempt) => attemptItem(attempt, assignment, { metrics, moves }));
     const list = items.length > 0 ? element("ol", { class: "attempt-list", reversed: true }, items) : element("p", { class: "help" }, own.noAttempts);
     return card(texts.exercise.attempts, list);
   }
@@ -120,7 +119,7 @@ export class WorkView extends View {
   }
 }
 
-function attemptItem(attempt, assignment, metrics) {
+function attemptItem(attempt, assignment, { metrics, moves }) {
   const { id, number, state, submitted_at, gains, criteria, counts, late_percent, reason } = attempt;
   const result = state === "graded" ? pointsOf(attempt.points, assignment.points) : texts.attempts.states[state];
   const rows = criteria.map(({ id: criterion, label, points: got, of }) => ({ "data-criterion": criterion, cells: [localized(label), pointsOf(got, of)] }));
@@ -129,7 +128,7 @@ function attemptItem(attempt, assignment, metrics) {
     { class: "attempt", "data-attempt": id, "data-number": number, "data-state": state, "data-points": attempt.points ?? "" },
     element("p", { class: "attempt-head" }, element("strong", {}, texts.attempts.number(number)), ` ${result} `, counts ? badge("counts", texts.attempts.counts) : null),
     element("p", { class: "help" }, moment(submitted_at), late_percent > 0 ? `, ${texts.attempts.late(points(late_percent))}` : ""),
-    element("p", { class: "help gains-line" }, gainsLine(gains)),
+    gainsLine(moves, gains),
     state === "returned" ? element("p", {}, texts.attempts.returned(reason ?? "")) : null,
     rows.length > 0 ? table({ caption: own.criteria, heads: [texts.feedback.criterion, texts.board.mark], rows }) : null,
     replayPart(attempt, metrics),

@@ -1,4 +1,4 @@
-//! The page in a real Chromium, served by the real binary: one trial per case, one fresh profile per page.
+//! The page in a real Chromium, served by the real binary: one trial per case, one fresh profile per page, two at a time.
 //!
 //! Without `chromium` and `chromedriver` the trials show as ignored, unless `REQUIRE_BROWSER=1` makes that a failure;
 //! `ADAPTARM_NO_BROWSER=1` always ignores them. Screenshots go to `target/screenshots`, or `ADAPTARM_SCREENSHOTS`.
@@ -14,9 +14,11 @@ mod page;
 mod pictures;
 mod relay;
 
+use adaptarm_tests::machine;
+use anyhow::Result;
 use bench::Bench;
 use libtest_mimic::{Arguments, Failed, Trial};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 fn main() {
     if switched_on("ADAPTARM_BENCH") {
@@ -27,8 +29,8 @@ fn main() {
         return;
     }
     let mut arguments = Arguments::from_args();
-    // One at a time: two browsers on a small machine would measure each other.
-    arguments.test_threads = Some(1);
+    // A trial waits more than it computes; what is measured in a soak is measured alone.
+    arguments.test_threads.get_or_insert(if machine::soak() { 1 } else { 2 });
     let missing = driver::missing();
     let ignored = switched_on("ADAPTARM_NO_BROWSER") || missing.is_some() && !switched_on("REQUIRE_BROWSER");
     if let Some(program) = missing.filter(|_| ignored) {
@@ -36,22 +38,48 @@ fn main() {
             "browser tests are ignored: {program} is not on PATH (Debian: apt-get install chromium chromium-driver)"
         );
     }
-    // Started by the first trial that runs, so that listing and ignoring start nothing.
-    let bench = Arc::new(OnceLock::new());
+    let benches = Arc::new(Benches::default());
     let trials = cases::ALL.iter().map(|&(name, case)| {
-        let bench = Arc::clone(&bench);
+        let benches = Arc::clone(&benches);
         let trial = Trial::test(name, move || {
-            let started = bench.get_or_init(|| Bench::start().map_err(|error| format!("{error:#}")));
-            let bench = started.as_ref().map_err(Failed::from)?;
-            case(bench).map_err(|error| Failed::from(format!("{error:#}")))
+            let run = if cases::ALONE.contains(&name) { Benches::alone } else { Benches::beside };
+            run(&benches, case).map_err(|error| Failed::from(format!("{error:#}")))
         });
         let lacks_axe = name.starts_with("axe_") && cases::axe().is_none() && !switched_on("REQUIRE_PYTHON");
         trial.with_ignored_flag(ignored || lacks_axe)
     });
     let conclusion = libtest_mimic::run(&arguments, trials.collect());
     // Exiting runs no destructors, and these stop processes.
-    drop(bench);
+    drop(benches);
     conclusion.exit();
+}
+
+/// Benches that no trial uses just now: as many as trials run at a time, started by the first that find none.
+#[derive(Default)]
+struct Benches {
+    idle: Mutex<Vec<Bench>>,
+    /// Whoever measures has it alone.
+    quiet: RwLock<()>,
+}
+
+impl Benches {
+    fn beside(&self, case: cases::Case) -> Result<()> {
+        let _others = self.quiet.read().unwrap_or_else(PoisonError::into_inner);
+        self.run(case)
+    }
+
+    fn alone(&self, case: cases::Case) -> Result<()> {
+        let _alone = self.quiet.write().unwrap_or_else(PoisonError::into_inner);
+        self.run(case)
+    }
+
+    fn run(&self, case: cases::Case) -> Result<()> {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let bench = idle.map_or_else(Bench::start, Ok)?;
+        let outcome = case(&bench);
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(bench);
+        outcome
+    }
 }
 
 fn switched_on(name: &str) -> bool {

@@ -96,12 +96,14 @@ pub(super) async fn work(
         view["runs"] = runs(&exercise, &state.desk.secret, attempt).into();
         attempts.push(view);
     }
-    // In which unit a variant's value is, its metric's name tells.
-    let metrics: Vec<_> = exercise.document().criteria.iter().map(|criterion| &criterion.metric).collect();
+    // In which unit a variant's value is, its metric's name tells; what a gain is called and its unit, the move.
+    let document = exercise.document();
+    let metrics: Vec<_> = document.criteria.iter().map(|criterion| &criterion.metric).collect();
     let overrides = work.overrides.iter().filter(|decided| decided.student == student.id);
     Ok(Json(json!({
         "student": views::student(&student), "mark": share.mark().map(|mark| views::mark(&mark, &work.assignment)),
         "extension": share.extension.map(views::extension), "attempts": attempts, "metrics": metrics,
+        "moves": document.moves,
         "overrides": overrides.map(views::decided).collect::<Vec<_>>(),
     })))
 }

@@ -54,7 +54,11 @@ fn solve(school: &School<'_>, page: &Page<'_>, gains: &Gains) -> Result<f64> {
     )?;
     let told = [&shown[0], &shown[1]].map(Value::as_f64);
     ensure!(told == [Some(grade.points), Some(grade.score)], "the preview is {shown}, the core says {}", grade.points);
-    hand_in(page, 1)
+    let points = hand_in(page, 1)?;
+    let listed = text(page, "return document.querySelector('.attempt-list .gains-line').textContent")?;
+    let stiffness = format!("Stiffness Kp:\u{a0}{}\u{a0}N·m/rad", gains["k_p"]);
+    ensure!(listed.contains(&stiffness), "the list of attempts says {listed:?}, not {stiffness:?}");
+    Ok(points)
 }
 
 /// What is no number, or out of its range, is refused by page and server alike, and costs no attempt; the worst gains do count.

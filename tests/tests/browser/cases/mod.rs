@@ -40,6 +40,13 @@ use anyhow::Result;
 /// A case: passes or says what is wrong.
 pub type Case = fn(&Bench) -> Result<()>;
 
+/// The cases that measure: nothing runs beside them.
+pub const ALONE: &[&str] = &[
+    "a_slider_move_is_drawn_in_time",
+    "after_two_hundred_random_moves_nothing_is_left_over",
+    "the_arm_takes_little_of_the_main_thread",
+];
+
 /// Every case.
 pub const ALL: &[(&str, Case)] = &[
     ("the_default_study_has_the_same_bits_everywhere", identity::the_default_study_has_the_same_bits_everywhere),
