@@ -9,7 +9,10 @@ use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-const PATIENCE: Duration = Duration::from_secs(30);
+/// Computing on the server is polite: whatever else the machine does comes first, another browser too.
+const PATIENCE: Duration = Duration::from_mins(2);
+/// Asking more often would take the time that the page needs to get there.
+const EVERY: Duration = Duration::from_millis(40);
 
 /// Size and kind of the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -169,7 +172,7 @@ impl<'a> Page<'a> {
                 let state = self.run("return JSON.stringify(document.documentElement.dataset)", &[])?;
                 bail!("waited {PATIENCE:?} in vain for: {condition}; the page's state is {state}");
             }
-            std::thread::sleep(Duration::from_millis(10));
+            std::thread::sleep(EVERY);
         }
         Ok(())
     }

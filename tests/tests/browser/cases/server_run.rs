@@ -231,7 +231,7 @@ pub fn a_run_is_followed_without_a_stream(bench: &Bench) -> Result<()> {
     let page = playground(bench, &server)?;
     page.devtools("Network.enable", &json!({}))?;
     page.devtools("Network.setBlockedURLs", &json!({ "urls": ["*/events"] }))?;
-    page.type_into(DURATION, "600")?;
+    page.type_into(DURATION, "200")?;
     page.click("#run-on-server")?;
     page.wait_for(ENDED)?;
     page.ready()?;
