@@ -29,7 +29,7 @@ fn main() {
         return;
     }
     let mut arguments = Arguments::from_args();
-    // A trial waits more than it computes; what is measured in a soak is measured alone.
+    // Pages and the server wait for each other; what is measured in a soak is measured alone.
     arguments.test_threads.get_or_insert(if machine::soak() { 1 } else { 2 });
     let missing = driver::missing();
     let ignored = switched_on("ADAPTARM_NO_BROWSER") || missing.is_some() && !switched_on("REQUIRE_BROWSER");
