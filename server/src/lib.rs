@@ -36,4 +36,5 @@ pub mod series;
 pub mod state;
 pub mod stdout;
 pub mod telemetry;
+pub mod unread;
 pub mod webhooks;

@@ -3,7 +3,7 @@
 use crate::error::{Problem, render};
 use crate::routes;
 use crate::state::AppState;
-use crate::{assets, guard, lti, metrics};
+use crate::{assets, guard, lti, metrics, unread};
 use axum::Router;
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
@@ -34,6 +34,7 @@ pub fn build_app(state: AppState) -> Router {
         .layer(middleware::from_fn(metrics::observe))
         .layer(middleware::from_fn(finish))
         .layer(TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, state.config.server.request_timeout()))
+        .layer(middleware::from_fn(unread::discard))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(middleware::from_fn_with_state(state.clone(), check_host))
         .layer(

@@ -14,11 +14,6 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
 use http_body_util::{BodyExt, LengthLimitError, Limited};
 use serde::de::DeserializeOwned;
-use std::time::Duration;
-use tokio::time::timeout;
-
-/// How long a body that is too large is read and thrown away, so that its sender comes to read the answer.
-const DISCARD_TIME: Duration = Duration::from_secs(5);
 
 /// The bytes of a body that is declared as JSON and is not too large. What they say is read beside the async threads.
 #[derive(Debug, Clone)]
@@ -85,20 +80,14 @@ fn is_json(headers: &HeaderMap) -> bool {
 }
 
 /// The whole body, if it is not too large.
-async fn read_body(headers: &HeaderMap, mut body: Body, most: usize) -> Result<Bytes, Problem> {
+async fn read_body(headers: &HeaderMap, body: Body, most: usize) -> Result<Bytes, Problem> {
     let declared = headers.get(header::CONTENT_LENGTH).and_then(|value| value.to_str().ok()?.parse::<u64>().ok());
     if declared.is_none_or(|length| length <= most as u64) {
-        match Limited::new(&mut body, most).collect().await {
+        match Limited::new(body, most).collect().await {
             Ok(collected) => return Ok(collected.to_bytes()),
             Err(error) if error.is::<LengthLimitError>() => {}
             Err(error) => return Err(Problem::status(StatusCode::BAD_REQUEST, format!("the body broke off: {error}"))),
         }
-    }
-    // Whoever waits for a go-ahead has sent nothing yet, and now will not.
-    if !headers.contains_key(header::EXPECT) {
-        let discard = async { while let Some(Ok(_)) = body.frame().await {} };
-        // In time or not, the answer is the same.
-        let _ = timeout(DISCARD_TIME, discard).await;
     }
     let size = declared.map_or_else(String::new, |length| format!("{length} bytes are too many: "));
     let detail = format!("{size}a body may have {most} bytes");

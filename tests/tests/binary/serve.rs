@@ -126,6 +126,45 @@ fn bytes_that_are_not_http_harm_nobody() -> Result<()> {
     Ok(())
 }
 
+/// Who sends the body after the head, as many clients do, reads why it was refused and may go on.
+#[test]
+fn a_refusal_waits_for_the_body_that_it_did_not_want() -> Result<()> {
+    let server = Server::start(&[])?;
+    let mut stream = TcpStream::connect(server.url.trim_start_matches("http://"))?;
+    stream.set_read_timeout(Some(Duration::from_mins(1)))?;
+    let mut ask = |head: &str, body: &str| -> Result<String> {
+        write!(stream, "{head}\r\nContent-Length: {}\r\n\r\n", body.len())?;
+        // The server has made up its mind when the body comes.
+        std::thread::sleep(Duration::from_millis(200));
+        stream.write_all(body.as_bytes())?;
+        let mut answer = Vec::new();
+        let mut some = [0; 4096];
+        loop {
+            let text = String::from_utf8_lossy(&answer).to_ascii_lowercase();
+            if let Some((head, body)) = text.split_once("\r\n\r\n") {
+                let length = head.split_once("content-length: ").and_then(|(_, after)| after.lines().next());
+                if body.len() >= length.context("no length")?.parse::<usize>()? {
+                    return Ok(head.lines().next().unwrap_or_default().to_owned());
+                }
+            }
+            let count = stream.read(&mut some)?;
+            ensure!(count > 0, "the connection ended after {text:?}");
+            answer.extend_from_slice(&some[..count]);
+        }
+    };
+    let job = "POST /api/v1/jobs HTTP/1.1\r\nContent-Type:";
+    for (head, status) in [
+        (format!("{job} application/json\r\nHost: evil.example"), 421),
+        (format!("{job} application/json\r\nHost: localhost\r\nOrigin: http://evil.example"), 403),
+        (format!("{job} text/plain\r\nHost: localhost"), 415),
+        ("PUT /nowhere HTTP/1.1\r\nHost: localhost".to_owned(), 404),
+    ] {
+        let answer = ask(&head, MINIMAL)?;
+        ensure!(answer.starts_with(&format!("http/1.1 {status}")), "{head}: {answer}");
+    }
+    Ok(())
+}
+
 #[test]
 fn the_page_comes_compressed_tagged_and_bound_to_itself() -> Result<()> {
     let server = Server::start(&[])?;
