@@ -116,7 +116,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         });
         unrolled!(Self::LAYOUT.whole_len, n => {
             let (j, g) = Self::LAYOUT.whole[n];
-            sum[g] = sum[g] + Self::neighbours(g, |i| Self::entry(z, j, i)) * repeat(theta_hat_rate[j]);
+            sum[g] = sum[g] + Self::row(z, j, g) * repeat(theta_hat_rate[j]);
         });
         unrolled!(Self::LAYOUT.groups, g => {
             sum[g].store(&mut w_rate[g * Self::WIDTH..]);
@@ -157,6 +157,18 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
             }
         }
         T::Pack::load(&numbers)
+    }
+
+    /// Row `j` of Z in the columns of group `g`, given Z's states.
+    #[inline(always)]
+    fn row(z: &[T], j: usize, g: usize) -> T::Pack {
+        let first = Self::LAYOUT.at[j][g * Self::WIDTH];
+        let mut is_kept = first != NONE && first % Self::WIDTH == 0;
+        for lane in 1..Self::WIDTH {
+            let column = g * Self::WIDTH + lane;
+            is_kept &= column >= P || Self::LAYOUT.at[j][column] == first + lane;
+        }
+        if is_kept { T::Pack::load(&z[first..]) } else { Self::neighbours(g, |i| Self::entry(z, j, i)) }
     }
 
     /// Entry (i, j) of Z.
@@ -280,10 +292,10 @@ mod tests {
         for (expected, found) in given.expected().into_iter().zip(&alone) {
             assert!((expected - found).abs() < 1e-11, "{found} instead of {expected}");
         }
-        #[cfg(target_arch = "x86_64")]
-        if crate::lanes::OneOfFour::is_here() {
-            use crate::lanes::OneOfFour;
-            let neighbours = OneOfFour::compiled(In::<OneOfFour, R, N, P>(&given, PhantomData));
+        #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+        if crate::lanes::Neighbour::is_here() {
+            use crate::lanes::Neighbour;
+            let neighbours = Neighbour::compiled(In::<Neighbour, R, N, P>(&given, PhantomData));
             assert!(alone.into_iter().map(f64::to_bits).eq(neighbours.into_iter().map(f64::to_bits)));
         }
     }

@@ -3,9 +3,9 @@
 //! Every operation works lane by lane, so that each lane has the bits that it would have alone. Which kinds of lanes a
 //! machine has is asked once, at run time ([`widths`]); vector instructions are used only inside [`Scalar::compiled`].
 
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+mod neighbour;
 mod one;
-#[cfg(target_arch = "x86_64")]
-mod one_of_four;
 #[cfg(test)]
 mod tests;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -13,14 +13,14 @@ mod wasm;
 #[cfg(target_arch = "x86_64")]
 mod x86_64;
 
-#[cfg(target_arch = "x86_64")]
-pub(crate) use one_of_four::OneOfFour;
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+pub(crate) use neighbour::Neighbour;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 pub(crate) use wasm::F64x2;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86_64::{F64x2, F64x4, F64x8};
 
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 
 /// Something to do with a kind of lanes that this machine has.
 pub(crate) trait WithLanes {
@@ -56,6 +56,12 @@ pub(crate) fn with_lanes<W: WithLanes>(width: usize, work: W) -> Option<W::Outpu
         8 => Some(work.with::<F64x8>()),
         _ => None,
     }
+}
+
+/// Runs `kernel` in a function of its own, of which there is one copy however often it is called: a page loads all of them.
+#[inline(never)]
+fn once<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
 }
 
 /// Makes a type of lanes a [`Scalar`], with the operators that nalgebra and num-traits ask for, out of what differs between

@@ -23,10 +23,10 @@ impl Scalar for f64 {
     fn compiled<K: Kernel>(kernel: K) -> K::Output {
         // A number alone does as well without; loops over many, which the compiler turns into vectors, do not.
         #[cfg(target_arch = "x86_64")]
-        if K::LOOPS_OVER_NUMBERS && super::OneOfFour::is_here() {
+        if K::LOOPS_OVER_NUMBERS && super::Neighbour::is_here() {
             return super::F64x4::compiled(kernel);
         }
-        kernel.run()
+        if cfg!(target_arch = "wasm32") { super::once(kernel) } else { kernel.run() }
     }
     #[inline(always)]
     fn splat(value: f64) -> Self {

@@ -75,10 +75,10 @@ proptest! {
             let different = with_lanes(*width, SameBits { x: &x, y: &y }).unwrap();
             prop_assert!(different.is_empty(), "{width} lanes: {different:?}");
         }
-        #[cfg(target_arch = "x86_64")]
-        if super::OneOfFour::is_here() {
-            let different = SameBits { x: &x, y: &y }.with::<super::OneOfFour>();
-            prop_assert!(different.is_empty(), "one of four: {different:?}");
+        #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+        if super::Neighbour::is_here() {
+            let different = SameBits { x: &x, y: &y }.with::<super::Neighbour>();
+            prop_assert!(different.is_empty(), "a neighbour: {different:?}");
         }
     }
 }

@@ -1,4 +1,5 @@
 //! Two lanes of WASM's simd128.
+#![allow(unsafe_code, reason = "two numbers in memory are read as one vector")]
 
 use super::impl_scalar;
 use crate::scalar::{Kernel, Scalar};
@@ -13,12 +14,17 @@ pub(crate) struct F64x2(v128);
 
 impl F64x2 {
     #[inline(always)]
-    fn repeat(value: f64) -> Self {
+    pub(super) fn repeat(value: f64) -> Self {
         Self(f64x2_splat(value))
     }
     #[inline(always)]
     pub(super) fn from_array([a, b]: [f64; 2]) -> Self {
         Self(f64x2(a, b))
+    }
+    #[inline(always)]
+    pub(super) fn load(numbers: &[f64; 2]) -> Self {
+        // SAFETY: as many numbers as are read; they may begin anywhere.
+        Self(unsafe { v128_load(numbers.as_ptr().cast()) })
     }
     #[inline(always)]
     pub(super) fn to_array(self) -> [f64; 2] {
@@ -72,7 +78,7 @@ impl F64x2 {
     /// The whole module is compiled with them.
     #[inline(always)]
     fn run_with_instructions<K: Kernel>(kernel: K) -> K::Output {
-        kernel.run()
+        super::once(kernel)
     }
 }
 impl_scalar!(F64x2, 2, v128);

@@ -1,7 +1,7 @@
 //! Lanes of x86-64: 2 with SSE2, which every such machine has, 4 with AVX2, 8 with AVX-512.
 //!
 //! The unsafe code is that `std::arch` asks the caller to know that the machine has an instruction. Here
-//! [`super::with_lanes`] asks first, or who works with [`super::OneOfFour`]; the types are the crate's own, and nothing else
+//! [`super::with_lanes`] asks first, or who works with [`super::Neighbour`]; the types are the crate's own, and nothing else
 //! makes a value of them (docs/decisions/0015-lanes.md).
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
@@ -45,6 +45,11 @@ macro_rules! lanes {
             #[inline(always)]
             pub(super) fn from_array(numbers: [f64; $width]) -> Self {
                 unsafe { Self(std::mem::transmute::<[f64; $width], $vector>(numbers)) }
+            }
+            #[inline(always)]
+            #[allow(dead_code, reason = "one type of lanes is that of neighbours")]
+            pub(super) fn load(numbers: &[f64; $width]) -> Self {
+                Self::from_array(*numbers)
             }
             #[inline(always)]
             pub(super) fn to_array(self) -> [f64; $width] {

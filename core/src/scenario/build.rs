@@ -11,12 +11,12 @@ use crate::control::{CoriolisVelocity, SlidingFeedback};
 use crate::decomposition::TorqueParts;
 use crate::dynamics::{self, FrictionSign, Plant};
 use crate::integrators::Tolerances;
-#[cfg(target_arch = "x86_64")]
-use crate::lanes::OneOfFour;
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+use crate::lanes::Neighbour;
 use crate::recording::{Columns, Recording};
 use crate::robots::{Robot, RobotData, for_robot};
 use crate::scalar::Scalar;
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 use crate::simulation::AsNumbers;
 use crate::simulation::{ClosedLoop, InitialVelocity, Method, Settings, StateSpace};
 use crate::trajectories::Remembered;
@@ -83,9 +83,9 @@ pub(super) fn closed_loop_alone<R: Robot<N, P>, const N: usize, const P: usize>(
     document: &ScenarioDocument,
 ) -> Box<dyn StateSpace<f64>> {
     // The adaptive integrator weighs every state, so for it nothing may be kept twice or as padding.
-    #[cfg(target_arch = "x86_64")]
-    if document.integration.method == MethodDocument::Rk4 && OneOfFour::is_here() {
-        return Box::new(AsNumbers(closed_loop::<R, OneOfFour, N, P>(&[document])));
+    #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+    if document.integration.method == MethodDocument::Rk4 && Neighbour::is_here() {
+        return Box::new(AsNumbers(closed_loop::<R, Neighbour, N, P>(&[document])));
     }
     closed_loop::<R, f64, N, P>(&[document])
 }

@@ -3,7 +3,7 @@
 //! Stepping sees only a [`StateSpace`]; [`ClosedLoop`] is the one that a robot and a scheme make. Knows nothing of scenarios.
 //! A diverging run is an [`Outcome`], not an error.
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 mod as_numbers;
 mod closed_loop;
 mod controller;
@@ -14,7 +14,7 @@ mod recorder;
 mod run;
 mod snapshot;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 pub(crate) use as_numbers::AsNumbers;
 pub use closed_loop::{ClosedLoop, InitialVelocity};
 pub use controller::Controller;

@@ -43,7 +43,11 @@ async fn every_answer_carries_the_protecting_headers() {
         assert_eq!(answer.header("x-content-type-options"), "nosniff");
         assert_eq!(answer.header("referrer-policy"), "no-referrer");
         assert_eq!(answer.header("cross-origin-resource-policy"), "same-origin");
-        assert!(answer.header("permissions-policy").contains("camera=()"));
+        assert_eq!(answer.header("permissions-policy"), "", "{path} is no page");
+    }
+    for page in ["/index.html", "/learn.html", "/api/docs"] {
+        let answer = app.get(page).await;
+        assert!(answer.header("permissions-policy").contains("camera=()"), "{page}: {}", answer.status);
     }
 }
 

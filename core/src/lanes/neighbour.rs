@@ -1,21 +1,26 @@
-//! A number of one run whose neighbours are worked on four at a time, AVX2 (docs/decisions/0021-neighbours.md).
+//! A number of one run whose neighbours are worked on together: four with AVX2, two with WASM's simd128
+//! (docs/decisions/0021-neighbours.md).
 //!
-//! It computes as an ordinary number does. What differs is its [`Pack`], and that it is compiled with AVX2 throughout: like
-//! [`F64x4`], it may be used only where [`OneOfFour::is_here`].
+//! It computes as an ordinary number does. What differs is its [`Pack`], and that it is compiled with that one's instructions
+//! throughout: like [`Vector`], it may be used only where [`Neighbour::is_here`].
 #![allow(unsafe_code, reason = "slices of a type that is one number are slices of numbers")]
 
-use super::{F64x4, impl_scalar, widths};
+#[cfg(target_arch = "wasm32")]
+use super::F64x2 as Vector;
+#[cfg(target_arch = "x86_64")]
+use super::F64x4 as Vector;
+use super::{impl_scalar, widths};
 use crate::scalar::{Kernel, Pack, Scalar};
 
-/// One number, AVX2.
+/// One number.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct OneOfFour(f64);
+pub(crate) struct Neighbour(f64);
 
-impl OneOfFour {
+impl Neighbour {
     /// Whether this machine has the instructions.
     pub fn is_here() -> bool {
-        widths().contains(&F64x4::LANES)
+        widths().contains(&Vector::LANES)
     }
 
     /// These numbers.
@@ -65,29 +70,29 @@ impl OneOfFour {
         Self(self.0 / other.0)
     }
 }
-impl_scalar!(@operators OneOfFour, 1);
+impl_scalar!(@operators Neighbour, 1);
 
-impl Pack<OneOfFour> for F64x4 {
-    const WIDTH: usize = 4;
+impl Pack<Neighbour> for Vector {
+    const WIDTH: usize = Self::LANES;
     #[inline(always)]
-    fn repeat(number: OneOfFour) -> Self {
+    fn repeat(number: Neighbour) -> Self {
         Self::repeat(number.0)
     }
     #[inline(always)]
-    fn load(numbers: &[OneOfFour]) -> Self {
-        let numbers = &numbers[..4];
-        Self::from_array([numbers[0].0, numbers[1].0, numbers[2].0, numbers[3].0])
+    fn load(numbers: &[Neighbour]) -> Self {
+        let (first, _) =
+            Neighbour::plain(numbers).split_first_chunk().expect("as many numbers as are worked on together");
+        Self::load(first)
     }
     #[inline(always)]
-    fn store(self, numbers: &mut [OneOfFour]) {
-        let [a, b, c, d] = self.to_array();
-        numbers[..4].copy_from_slice(&[OneOfFour(a), OneOfFour(b), OneOfFour(c), OneOfFour(d)]);
+    fn store(self, numbers: &mut [Neighbour]) {
+        numbers[..Self::LANES].copy_from_slice(Neighbour::of(&self.to_array()));
     }
 }
 
-impl Scalar for OneOfFour {
+impl Scalar for Neighbour {
     type Mask = bool;
-    type Pack = F64x4;
+    type Pack = Vector;
     const LANES: usize = 1;
 
     #[inline(always)]
@@ -100,7 +105,7 @@ impl Scalar for OneOfFour {
     }
     #[inline(always)]
     fn compiled<K: Kernel>(kernel: K) -> K::Output {
-        F64x4::compiled(kernel)
+        Vector::compiled(kernel)
     }
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -122,9 +127,9 @@ impl Scalar for OneOfFour {
     }
     #[inline(always)]
     fn tanh_each(x: &mut [Self]) {
-        let (fours, rest) = x.as_chunks_mut::<4>();
-        for four in fours {
-            <F64x4 as Pack<Self>>::load(four).tanh().store(four);
+        let (together, rest) = x.as_chunks_mut::<{ Vector::LANES }>();
+        for together in together {
+            <Vector as Pack<Self>>::load(together).tanh().store(together);
         }
         for x in rest {
             *x = x.tanh();
@@ -166,8 +171,8 @@ mod tests {
         fn slices_keep_their_numbers(mut numbers in prop::collection::vec(any::<f64>(), 0..9)) {
             let before = numbers.clone();
             let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            prop_assert_eq!(bits(OneOfFour::plain(OneOfFour::of(&numbers))), bits(&before));
-            for number in OneOfFour::of_mut(&mut numbers) {
+            prop_assert_eq!(bits(Neighbour::plain(Neighbour::of(&numbers))), bits(&before));
+            for number in Neighbour::of_mut(&mut numbers) {
                 *number = -*number;
             }
             prop_assert_eq!(bits(&numbers), before.iter().map(|x| (-x).to_bits()).collect::<Vec<_>>());
@@ -183,21 +188,21 @@ mod tests {
                 type Output = ([f64; 6], [f64; 6]);
                 fn run(mut self) -> Self::Output {
                     let mut out = [0.0; 6];
-                    let load = <F64x4 as Pack<OneOfFour>>::load;
-                    let (x, y) = (load(OneOfFour::of(&self.0)), load(OneOfFour::of(&self.1)));
-                    let three = <F64x4 as Pack<OneOfFour>>::repeat(OneOfFour(3.0));
-                    Pack::store(x * three + y - x * y, OneOfFour::of_mut(&mut out));
-                    OneOfFour::tanh_each(OneOfFour::of_mut(&mut self.0));
+                    let load = <Vector as Pack<Neighbour>>::load;
+                    let (x, y) = (load(Neighbour::of(&self.0)), load(Neighbour::of(&self.1)));
+                    let three = <Vector as Pack<Neighbour>>::repeat(Neighbour(3.0));
+                    Pack::store(x * three + y - x * y, Neighbour::of_mut(&mut out));
+                    Neighbour::tanh_each(Neighbour::of_mut(&mut self.0));
                     (out, self.0)
                 }
             }
             // Without the instructions it is never used.
-            if OneOfFour::is_here() {
-                let (out, tanh) = OneOfFour::compiled(Together(x, y));
-                for n in 0..4 {
+            if Neighbour::is_here() {
+                let (out, tanh) = Neighbour::compiled(Together(x, y));
+                for n in 0..Vector::LANES {
                     prop_assert_eq!(out[n].to_bits(), (x[n] * 3.0 + y[n] - x[n] * y[n]).to_bits());
                 }
-                prop_assert_eq!(out[4..].to_vec(), vec![0.0; 2], "only four are written");
+                prop_assert_eq!(out[Vector::LANES..].to_vec(), vec![0.0; 6 - Vector::LANES], "no more are written");
                 prop_assert_eq!(tanh.map(f64::to_bits), x.map(|x| Scalar::tanh(x).to_bits()));
             }
         }
