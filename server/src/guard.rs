@@ -24,8 +24,8 @@ const HEADERS: [(HeaderName, HeaderValue); 4] = [
 ];
 
 /// Adds the headers that every response carries, and those of a page to a page: a first visit makes some hundred requests, each
-/// with its headers. Pages that a learning platform shows within its own bring a stricter policy
-/// that names the platform; two policies would both count.
+/// with its headers. Pages that a learning platform shows within its own bring a stricter policy that names the platform; two
+/// policies would both count.
 pub fn protect(headers: &mut HeaderMap) {
     for (name, value) in HEADERS {
         headers.entry(name).or_insert(value);

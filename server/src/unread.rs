@@ -11,7 +11,7 @@ use hyper::body::{Frame, SizeHint};
 use std::pin::Pin;
 use std::task::{Context, Poll};
 use std::time::Duration;
-use tokio::sync::oneshot::{self, Receiver, Sender};
+use tokio::sync::oneshot::{self, Sender};
 use tokio::time::timeout;
 
 /// How long what is left of a body is read.
@@ -19,12 +19,13 @@ const DISCARD_TIME: Duration = Duration::from_secs(5);
 
 /// Answers once the request's body has been read, by whoever answers or else here.
 pub async fn discard(request: Request, next: Next) -> Response {
-    let waits_for_a_go_ahead = request.headers().contains_key(header::EXPECT);
-    let (head, body) = request.into_parts();
-    let (lent, mut returned) = lend(body);
-    let response = next.run(Request::from_parts(head, Body::new(lent))).await;
-    // Whoever waits for a go-ahead has sent nothing yet, and now will not.
-    if !waits_for_a_go_ahead && let Ok(mut rest) = returned.try_recv() {
+    // Whoever waits for a go-ahead has sent nothing yet, and will not where it is refused.
+    if request.body().is_end_stream() || request.headers().contains_key(header::EXPECT) {
+        return next.run(request).await;
+    }
+    let (back, mut returned) = oneshot::channel();
+    let response = next.run(request.map(|body| Body::new(Lent { body, back: Some(back) }))).await;
+    if let Ok(mut rest) = returned.try_recv() {
         let discard = async { while let Some(Ok(_)) = rest.frame().await {} };
         // In time or not, the answer is the same.
         let _ = timeout(DISCARD_TIME, discard).await;
@@ -37,11 +38,6 @@ pub async fn discard(request: Request, next: Next) -> Response {
 struct Lent {
     body: Body,
     back: Option<Sender<Body>>,
-}
-
-fn lend(body: Body) -> (Lent, Receiver<Body>) {
-    let (back, returned) = oneshot::channel();
-    (Lent { body, back: Some(back) }, returned)
 }
 
 impl HttpBody for Lent {
