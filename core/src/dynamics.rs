@@ -95,7 +95,7 @@ where
         torque: &SVector<T, N>,
     ) -> SVector<T, N> {
         let (inertia, bias) = R::inertia_and_bias(geometry, &self.theta, velocity, sign_velocity);
-        solve_symmetric(&inertia, torque - bias)
+        factorize(&inertia, &R::INERTIA_LIVE).solve(torque - bias)
     }
 
     /// Inverse dynamics `τ = H(q) q̈ + C(q, q̇) q̇ + D q̇ + F_c sgn(q̇) + g(q)`, N·m. Source: paper eq. (1).
@@ -128,7 +128,7 @@ pub fn has_positive_inertia<R: Robot<N, P>, const N: usize, const P: usize>(
         });
         let still = SVector::<f64, N>::zeros();
         let (inertia, _) = R::inertia_and_bias(&R::geometry(&q), theta, &still, &still);
-        factorize(&(inertia - SMatrix::from_diagonal(less))).pivots.iter().all(|pivot| *pivot > 0.0)
+        factorize(&(inertia - SMatrix::from_diagonal(less)), &R::INERTIA_LIVE).pivots.iter().all(|pivot| *pivot > 0.0)
     })
 }
 
@@ -139,56 +139,72 @@ pub(crate) struct Factors<T, const N: usize> {
     /// Diagonal of D; all positive exactly where A is positive definite.
     pub pivots: SVector<T, N>,
     inverse_pivots: SVector<T, N>,
+    /// Which entries of L can differ from zero.
+    live: &'static [[bool; N]; N],
 }
 
-/// Factors a symmetric matrix: no square root, no pivoting.
+/// Factors a symmetric matrix: no square root, no pivoting. `live` says which entries of L can differ from zero; the others
+/// cost nothing, and nobody waits for them.
 #[inline(always)]
-pub(crate) fn factorize<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>) -> Factors<T, N> {
+pub(crate) fn factorize<T: Scalar, const N: usize>(
+    a: &SMatrix<T, N, N>,
+    live: &'static [[bool; N]; N],
+) -> Factors<T, N> {
     let mut lower = *a;
     let mut pivots = SVector::<T, N>::zeros();
     let mut inverse_pivots = SVector::<T, N>::zeros();
     for j in 0..N {
         pivots[j] = a[(j, j)];
         for k in 0..j {
-            let ld = lower[(j, k)] * pivots[k];
-            pivots[j] -= lower[(j, k)] * ld;
+            if live[j][k] {
+                let ld = lower[(j, k)] * pivots[k];
+                pivots[j] -= lower[(j, k)] * ld;
+            }
         }
         inverse_pivots[j] = T::one() / pivots[j];
         for i in j + 1..N {
-            let mut sum = a[(i, j)];
-            for k in 0..j {
-                sum -= lower[(i, k)] * lower[(j, k)] * pivots[k];
+            if live[i][j] {
+                let mut sum = a[(i, j)];
+                for k in 0..j {
+                    if live[i][k] && live[j][k] {
+                        sum -= lower[(i, k)] * lower[(j, k)] * pivots[k];
+                    }
+                }
+                lower[(i, j)] = sum * inverse_pivots[j];
             }
-            lower[(i, j)] = sum * inverse_pivots[j];
         }
     }
-    Factors { lower, pivots, inverse_pivots }
+    Factors { lower, pivots, inverse_pivots, live }
 }
 
 /// Solves `A x = b` for symmetric positive definite `A` by `L D Lᵀ`: no failure path
 /// (an indefinite `A` gives large or non-finite numbers, which the simulation reports as divergence).
 #[inline(always)]
 pub fn solve_symmetric<T: Scalar, const N: usize>(a: &SMatrix<T, N, N>, b: SVector<T, N>) -> SVector<T, N> {
-    factorize(a).solve(b)
+    factorize(a, &[[true; N]; N]).solve(b)
 }
 
 impl<T: Scalar, const N: usize> Factors<T, N> {
     /// Solves `A x = b`.
     #[inline(always)]
     pub fn solve(&self, b: SVector<T, N>) -> SVector<T, N> {
-        let Self { lower: l, inverse_pivots, .. } = self;
+        let Self { lower: l, inverse_pivots, live, .. } = self;
         let mut x = b;
         for i in 0..N {
             for k in 0..i {
-                let known = x[k];
-                x[i] -= l[(i, k)] * known;
+                if live[i][k] {
+                    let known = x[k];
+                    x[i] -= l[(i, k)] * known;
+                }
             }
         }
         for i in (0..N).rev() {
             x[i] *= inverse_pivots[i];
             for k in i + 1..N {
-                let known = x[k];
-                x[i] -= l[(k, i)] * known;
+                if live[k][i] {
+                    let known = x[k];
+                    x[i] -= l[(k, i)] * known;
+                }
             }
         }
         x

@@ -31,7 +31,12 @@ where
     let mut gradient = SVector::<T, P>::zeros();
     unrolled!(R::ENTRIES.len(), n => {
         let (i, k) = R::ENTRIES[n];
-        gradient[k] += y[(i, k)] * s[i];
+        let mut is_first = true;
+        for row in 0..i {
+            is_first &= !R::LIVE[row][k];
+        }
+        let term = y[(i, k)] * s[i];
+        gradient[k] = if is_first { term } else { gradient[k] + term };
     });
     gradient
 }

@@ -49,9 +49,15 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         let (x, tau_f) = states[..Self::STATES].split_at(R::ENTRIES.len());
         let mut filtered = Regressor::<T, N, P>::zeros();
         for (x, &entry) in x.iter().zip(R::ENTRIES) {
-            filtered[entry] = self.bandwidth * momentum[entry] + *x;
+            filtered[entry] = self.filtered(&momentum, entry, *x);
         }
         (filtered, SVector::from_column_slice(tau_f))
+    }
+
+    /// An entry of `Yf = λf P + x`.
+    #[inline(always)]
+    fn filtered(&self, momentum: &Regressor<T, N, P>, (row, column): (usize, usize), x: T) -> T {
+        if R::MOMENTUM_LIVE[row][column] { self.bandwidth * momentum[(row, column)] + x } else { x }
     }
 
     /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative. Source: paper eq. (10) to (12).
@@ -72,8 +78,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         let mut filtered = Regressor::<T, N, P>::zeros();
         unrolled!(R::ENTRIES.len(), n => {
             let entry = R::ENTRIES[n];
-            let direct = self.bandwidth * momentum[entry];
-            filtered[entry] = direct + x[n];
+            filtered[entry] = self.filtered(&momentum, entry, x[n]);
             x_rate[n] = self.bandwidth * (balance[entry] - filtered[entry]);
         });
         for i in 0..N {

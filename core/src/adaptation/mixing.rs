@@ -55,7 +55,7 @@ impl<const P: usize> Mixing<P> {
         if mean <= 0.0 {
             return SVector::zeros();
         }
-        let factors = factorize(&(z / mean));
+        let factors = factorize(&(z / mean), &[[true; P]; P]);
         // A matrix that rounding keeps from being positive has no excitation to speak of.
         if !factors.pivots.iter().all(|pivot| *pivot > 0.0) {
             return SVector::zeros();

@@ -48,79 +48,106 @@ pub struct Geometry<T> {
 }
 
 /// How a motion enters the inertia rows. Every inertia column of Y, of the momentum and of `−∂T/∂q` is the same linear
-/// form in the coefficients h, α, β, h22, h23, h33, γ; only these factors differ.
+/// form in the coefficients h, α, β, h22, h23, h33, γ; only these factors differ. `None` has no part in the motion.
+#[derive(Clone, Copy)]
 struct Factors<T> {
-    h: T,
-    alpha: T,
-    beta: T,
-    second: T,
-    third: T,
-    centrifugal: T,
-    gamma2: T,
-    gamma3: T,
+    h: Option<T>,
+    alpha: Option<T>,
+    beta: Option<T>,
+    second: Option<T>,
+    third: Option<T>,
+    /// Of −α in row 2, of −β in row 3.
+    centrifugal: Option<T>,
+    gamma2: Option<T>,
+    gamma3: Option<T>,
+}
+
+/// A sum of coefficients times factors, in their order, of which only those that have a part cost anything.
+#[derive(Clone, Copy)]
+struct Sum<T>(Option<T>);
+
+impl<T: Scalar> Sum<T> {
+    const EMPTY: Self = Self(None);
+
+    #[inline(always)]
+    fn plus(self, coefficient: T, factor: Option<T>) -> Self {
+        let Some(factor) = factor else { return self };
+        let term = coefficient * factor;
+        Self(Some(match self.0 {
+            Some(sum) => sum + term,
+            None => term,
+        }))
+    }
+
+    #[inline(always)]
+    fn total(self) -> T {
+        self.0.unwrap_or(T::zero())
+    }
 }
 
 impl<T: Scalar> Factors<T> {
+    const NONE: Self = Self {
+        h: None,
+        alpha: None,
+        beta: None,
+        second: None,
+        third: None,
+        centrifugal: None,
+        gamma2: None,
+        gamma3: None,
+    };
+
     /// Of `H(q) a + C(q, u) v`.
     #[inline(always)]
     fn newton_euler(u: &SVector<T, N>, v: &SVector<T, N>, a: &SVector<T, N>) -> Self {
+        Self { h: Some(a[0]), second: Some(a[1]), third: Some(a[2]), ..Self::coriolis(u, v) }
+    }
+
+    /// Of `C(q, u) v`.
+    #[inline(always)]
+    fn coriolis(u: &SVector<T, N>, v: &SVector<T, N>) -> Self {
         Self {
-            h: a[0],
-            alpha: u[1] * v[0] + u[0] * v[1],
-            beta: u[2] * v[0] + u[0] * v[2],
-            second: a[1],
-            third: a[2],
-            centrifugal: u[0] * v[0],
-            gamma2: u[2] * v[1] + (u[1] + u[2]) * v[2],
-            gamma3: u[1] * v[1],
+            alpha: Some(u[1] * v[0] + u[0] * v[1]),
+            beta: Some(u[2] * v[0] + u[0] * v[2]),
+            centrifugal: Some(-(u[0] * v[0])),
+            gamma2: Some(u[2] * v[1] + (u[1] + u[2]) * v[2]),
+            gamma3: Some(-(u[1] * v[1])),
+            ..Self::NONE
         }
     }
 
     /// Of the momentum `H(q) v`.
     #[inline(always)]
     fn momentum(v: &SVector<T, N>) -> Self {
-        let zero = T::zero();
-        Self {
-            h: v[0],
-            alpha: zero,
-            beta: zero,
-            second: v[1],
-            third: v[2],
-            centrifugal: zero,
-            gamma2: zero,
-            gamma3: zero,
-        }
+        Self { h: Some(v[0]), second: Some(v[1]), third: Some(v[2]), ..Self::NONE }
     }
 
     /// Of `−∂T/∂q`, `T = ½ vᵀ H(q) v`.
     #[inline(always)]
     fn kinetic_gradient(v: &SVector<T, N>) -> Self {
-        let zero = T::zero();
-        Self {
-            h: zero,
-            alpha: zero,
-            beta: zero,
-            second: zero,
-            third: zero,
-            centrifugal: v[0] * v[0],
-            gamma2: zero,
-            gamma3: v[1] * v[1] + v[1] * v[2],
-        }
+        Self { centrifugal: Some(-(v[0] * v[0])), gamma3: Some(-(v[1] * v[1] + v[1] * v[2])), ..Self::NONE }
     }
 
     #[inline(always)]
     fn row1(&self, h: T, alpha: T, beta: T) -> T {
-        h * self.h + alpha * self.alpha + beta * self.beta
+        Sum::EMPTY.plus(h, self.h).plus(alpha, self.alpha).plus(beta, self.beta).total()
     }
 
     #[inline(always)]
     fn row2(&self, h22: T, h23: T, alpha: T, gamma: T) -> T {
-        h22 * self.second + h23 * self.third - alpha * self.centrifugal + gamma * self.gamma2
+        let inertia = Sum::EMPTY.plus(h22, self.second).plus(h23, self.third);
+        inertia.plus(alpha, self.centrifugal).plus(gamma, self.gamma2).total()
     }
 
     #[inline(always)]
-    fn row3(&self, h23: T, h33: T, beta: T, gamma: T) -> T {
-        h23 * self.second + h33 * self.third - beta * self.centrifugal - gamma * self.gamma3
+    fn row3(&self, h23: T, beta: T, gamma: T) -> T {
+        Sum::EMPTY.plus(h23, self.second).plus(beta, self.centrifugal).plus(gamma, self.gamma3).total()
+    }
+
+    /// What one coefficient adds, turned by the waist's speed.
+    #[inline(always)]
+    fn turned(&self, coefficient: T) -> T {
+        Sum::EMPTY.plus(coefficient, self.centrifugal).total()
     }
 
     /// The ten inertia columns.
@@ -129,26 +156,26 @@ impl<T: Scalar> Factors<T> {
         let zero = T::zero();
         let mut y = Regressor::<T, N, P>::zeros();
         y[(0, 0)] = self.row1(g.h1, g.alpha_beta1, g.alpha_beta1);
-        y[(0, 2)] = g.h3 * self.h + g.alpha3 * self.alpha;
-        y[(0, 3)] = g.h4 * self.h + g.alpha4 * self.alpha;
+        y[(0, 2)] = Sum::EMPTY.plus(g.h3, self.h).plus(g.alpha3, self.alpha).total();
+        y[(0, 3)] = Sum::EMPTY.plus(g.h4, self.h).plus(g.alpha4, self.alpha).total();
         y[(0, 4)] = self.row1(g.h5, g.alpha5, g.beta5);
         y[(0, 5)] = self.row1(g.h6, g.alpha_beta6, g.alpha_beta6);
         y[(0, 6)] = self.row1(g.h7, g.alpha7, g.beta7);
-        y[(0, 7)] = self.h;
-        y[(1, 0)] = -g.alpha_beta1 * self.centrifugal;
-        y[(1, 1)] = self.third;
-        y[(1, 2)] = -g.alpha3 * self.centrifugal;
-        y[(1, 3)] = -g.alpha4 * self.centrifugal;
+        y[(0, 7)] = self.h.unwrap_or(zero);
+        y[(1, 0)] = self.turned(g.alpha_beta1);
+        y[(1, 1)] = self.third.unwrap_or(zero);
+        y[(1, 2)] = self.turned(g.alpha3);
+        y[(1, 3)] = self.turned(g.alpha4);
         y[(1, 4)] = self.row2(g.h22_5, g.h23_5, g.alpha5, g.gamma5);
-        y[(1, 5)] = -g.alpha_beta6 * self.centrifugal;
+        y[(1, 5)] = self.turned(g.alpha_beta6);
         y[(1, 6)] = self.row2(g.h22_7, g.h23_7, g.alpha7, g.gamma7);
-        y[(1, 8)] = self.second;
-        y[(2, 0)] = -g.alpha_beta1 * self.centrifugal;
-        y[(2, 1)] = self.second;
-        y[(2, 4)] = self.row3(g.h23_5, zero, g.beta5, g.gamma5);
-        y[(2, 5)] = -g.alpha_beta6 * self.centrifugal;
-        y[(2, 6)] = self.row3(g.h23_7, zero, g.beta7, g.gamma7);
-        y[(2, 9)] = self.third;
+        y[(1, 8)] = self.second.unwrap_or(zero);
+        y[(2, 0)] = self.turned(g.alpha_beta1);
+        y[(2, 1)] = self.second.unwrap_or(zero);
+        y[(2, 4)] = self.row3(g.h23_5, g.beta5, g.gamma5);
+        y[(2, 5)] = self.turned(g.alpha_beta6);
+        y[(2, 6)] = self.row3(g.h23_7, g.beta7, g.gamma7);
+        y[(2, 9)] = self.third.unwrap_or(zero);
         y
     }
 }
@@ -175,10 +202,16 @@ const PATTERN: [&[u8; P]; N] = [b"#.######..#..#....", b"#######.#..#..#.##", b"
 
 const LIVE: [[bool; P]; N] = pattern_to_live(&PATTERN);
 
+/// The same of the momentum: neither centrifugal terms nor friction nor gravity.
+const MOMENTUM_PATTERN: [&[u8; P]; N] = [b"#.######..........", b".#..#.#.#.........", b".#..#.#..#........"];
+
+
 impl Robot<N, P> for CrsA465 {
     type Geometry<T: Scalar> = Geometry<T>;
 
     const LIVE: [[bool; P]; N] = LIVE;
+    const MOMENTUM_LIVE: [[bool; P]; N] = pattern_to_live(&MOMENTUM_PATTERN);
+    const INERTIA_LIVE: [[bool; N]; N] = pattern_to_live(&[b"#..", b".##", b".##"]);
     const ENTRIES: &'static [(usize, usize)] = &list_entries::<N, P, { count_entries(&LIVE) }>(&LIVE);
     const PAIRS: &'static [(usize, usize)] = &list_pairs::<N, P, { count_pairs(&LIVE) }>(&LIVE);
     const DATA: &'static RobotData = &DATA;
@@ -263,13 +296,12 @@ impl Robot<N, P> for CrsA465 {
         let gamma = th[4] * g.gamma5 + th[6] * g.gamma7;
         let inertia = SMatrix::<T, N, N>::new(h11, zero, zero, zero, h22, h23, zero, h23, h33);
 
-        let still = SVector::<T, N>::zeros();
-        let coriolis = Factors::newton_euler(v, v, &still);
+        let coriolis = Factors::coriolis(v, v);
         let forearm = th[17] * g.c23;
         let mut bias = SVector::<T, N>::new(
             coriolis.row1(h11, alpha, beta),
             coriolis.row2(h22, h23, alpha, gamma) + th[16] * g.c2 + forearm,
-            coriolis.row3(h23, h33, beta, gamma) + forearm,
+            coriolis.row3(h23, beta, gamma) + forearm,
         );
         for i in 0..N {
             bias[i] += th[10 + i] * v[i] + th[13 + i] * sign_v[i];

@@ -36,6 +36,10 @@ pub trait Robot<const N: usize, const P: usize>: Send + Sync + 'static {
 
     /// Which entries of the regressor can differ from zero.
     const LIVE: [[bool; P]; N];
+    /// Which of these are live in the momentum's regressor.
+    const MOMENTUM_LIVE: [[bool; P]; N] = Self::LIVE;
+    /// Which entries of the inertia matrix can differ from zero, and so those of L in `H = L D Lᵀ`.
+    const INERTIA_LIVE: [[bool; N]; N] = [[true; N]; N];
     /// The live entries as (row, column), row by row.
     const ENTRIES: &'static [(usize, usize)];
     /// Pairs `i <= j` of parameters that share a row: the upper triangle of `YᵀY` that can differ from zero.

@@ -5,10 +5,10 @@
 
 use super::recorder::Recorder;
 use super::run::exceeded_joint;
-use super::{Divergence, Outcome, Settings, Snapshot, StateSpace};
+use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, TRACKING_ERROR_LIMIT_RAD};
 use crate::integrators::Rk4;
 use crate::recording::Recording;
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 
 /// Lanes under way, whatever their scalar.
 pub(crate) trait Lockstep: Send {
@@ -31,6 +31,8 @@ pub(crate) struct Lanes<T: Scalar> {
     every: u64,
     state: Vec<T>,
     row: Vec<T>,
+    /// The row, lane by lane.
+    rows: Vec<f64>,
     error: Vec<T>,
     step: u64,
     time_s: f64,
@@ -58,6 +60,7 @@ impl<T: Scalar> Lanes<T> {
     pub fn new(identities: Vec<String>, system: Box<dyn StateSpace<T>>, settings: Settings) -> Option<Self> {
         let every = settings.steps_per_sample()?;
         let len = system.len();
+        let width = settings.columns.width() - 1;
         let zeros = |len| vec![T::zero(); len];
         let mut state = zeros(len);
         system.initialize(&mut state);
@@ -68,7 +71,8 @@ impl<T: Scalar> Lanes<T> {
             rk4: Rk4::new(len),
             every,
             state,
-            row: zeros(settings.columns.width() - 1),
+            row: zeros(width),
+            rows: vec![0.0; width * T::LANES],
             error: zeros(settings.columns.joints),
             step: 0,
             time_s: 0.0,
@@ -132,6 +136,9 @@ impl<T: Scalar> Lanes<T> {
     /// Ends the runs whose state is not finite or too far from its trajectory.
     fn check(&mut self, finite: T) {
         self.system.tracking_error(self.time_s, &self.state, &mut self.error);
+        if !T::compiled(IsAnyLost { finite, error: &self.error }) {
+            return;
+        }
         for lane in 0..self.runs.len() {
             let reason = if finite.lane(lane).is_finite() {
                 exceeded_joint(self.error.iter().map(|e| e.lane(lane))).map(Divergence::TrackingError)
@@ -147,17 +154,15 @@ impl<T: Scalar> Lanes<T> {
     /// Records a row for every run that has not ended; one that is not finite ends its run. `stepped` says whether the row
     /// belongs to the step just made, which then counts as the one that diverged.
     fn record_row(&mut self, stepped: bool) {
+        T::compiled(ByLane { row: &self.row, rows: &mut self.rows });
+        let width = self.row.len();
         for lane in 0..self.runs.len() {
             let run = &mut self.runs[lane];
             if run.end.is_some() {
                 continue;
             }
-            let row = &self.row;
-            let recorded = run.recorder.record_row(|out| {
-                for (out, value) in out.iter_mut().zip(row) {
-                    *out = value.lane(lane);
-                }
-            });
+            let row = &self.rows[lane * width..][..width];
+            let recorded = run.recorder.record_row(|out| out.copy_from_slice(row));
             if let Err(reason) = recorded {
                 self.end(lane, Outcome::Diverged { at_s: self.time_s, reason }, stepped);
             }
@@ -168,6 +173,47 @@ impl<T: Scalar> Lanes<T> {
     fn end(&mut self, lane: usize, outcome: Outcome, before: bool) {
         let state = lane_of(if before { self.rk4.before() } else { &self.state }, lane);
         self.runs[lane].end = Some(End { outcome, step: self.step, time_s: self.time_s, state });
+    }
+}
+
+/// Whether any lane's state is not finite or too far from its trajectory.
+struct IsAnyLost<'a, T> {
+    finite: T,
+    error: &'a [T],
+}
+
+impl<T: Scalar> Kernel for IsAnyLost<'_, T> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let (zero, one, limit) = (T::zero(), T::one(), T::splat(TRACKING_ERROR_LIMIT_RAD));
+        let mut lost = T::select(self.finite.less_than(one), zero, one);
+        for joint in 0..self.error.len() {
+            lost = T::select(limit.less_than(self.error[joint].abs()), one, lost);
+        }
+        T::any(zero.less_than(lost))
+    }
+}
+
+/// A row of all lanes as one row per lane.
+struct ByLane<'a, T> {
+    row: &'a [T],
+    rows: &'a mut [f64],
+}
+
+impl<T: Scalar> Kernel for ByLane<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (row, width) = (self.row, self.row.len());
+        let rows = &mut self.rows[..width * T::LANES];
+        for n in 0..width {
+            for lane in 0..T::LANES {
+                rows[lane * width + n] = row[n].lane(lane);
+            }
+        }
     }
 }
 
