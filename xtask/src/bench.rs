@@ -28,6 +28,7 @@ pub(crate) fn run(workspace: &Workspace, args: &BenchArgs) -> Result<()> {
     command.env("ADAPTARM_BIN", workspace.server_program("release")).env("ADAPTARM_BENCH", "1").args([
         "test",
         "--quiet",
+        "--release",
         "--locked",
         "--package",
         "adaptarm-tests",

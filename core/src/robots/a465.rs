@@ -205,7 +205,6 @@ const LIVE: [[bool; P]; N] = pattern_to_live(&PATTERN);
 /// The same of the momentum: neither centrifugal terms nor friction nor gravity.
 const MOMENTUM_PATTERN: [&[u8; P]; N] = [b"#.######..........", b".#..#.#.#.........", b".#..#.#..#........"];
 
-
 impl Robot<N, P> for CrsA465 {
     type Geometry<T: Scalar> = Geometry<T>;
 

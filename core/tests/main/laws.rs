@@ -243,20 +243,26 @@ macro_rules! laws {
                 }
 
                 #[test]
-                fn dead_entries_of_the_regressors_are_zero(
+                fn dead_entries_of_regressors_and_inertia_are_zero(
                     q in vectors::<N>(PI), u in vectors::<N>(3.0), v in vectors::<N>(3.0), a in vectors::<N>(20.0),
                 ) {
                     let (g, sign) = (R::geometry(&q), FrictionSign::True.of(&v));
                     let regressors = [
-                        R::regressor(&g, &u, &v, &a, &sign),
-                        R::momentum_regressor(&g, &v),
-                        R::balance_regressor(&g, &v, &sign),
+                        (R::LIVE, R::regressor(&g, &u, &v, &a, &sign)),
+                        (R::MOMENTUM_LIVE, R::momentum_regressor(&g, &v)),
+                        (R::LIVE, R::balance_regressor(&g, &v, &sign)),
                     ];
-                    for y in regressors {
+                    for (live, y) in regressors {
                         for row in 0..N {
                             for column in 0..P {
-                                prop_assert!(R::LIVE[row][column] || y[(row, column)] == 0.0, "{} {}", row, column);
+                                prop_assert!(live[row][column] || y[(row, column)] == 0.0, "{} {}", row, column);
                             }
+                        }
+                    }
+                    let (inertia, _) = R::inertia_and_bias(&g, &R::theta(), &v, &sign);
+                    for row in 0..N {
+                        for column in 0..N {
+                            prop_assert!(R::INERTIA_LIVE[row][column] || inertia[(row, column)] == 0.0, "{} {}", row, column);
                         }
                     }
                 }

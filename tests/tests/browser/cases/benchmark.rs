@@ -1,16 +1,28 @@
-//! The page's speed as `cargo xtask bench` prints it: a slider's way to the screen, the longest task while dragging, a first
-//! visit, its size. Limits stand beside; timing fails nothing, because machines differ and others may use this one.
+//! The page's speed as `cargo xtask bench` prints it: its module against the same core compiled for this machine, a slider's way
+//! to the screen, the longest task while dragging, a first visit, its size. Limits stand beside; timing fails nothing, because machines differ and others may use this one.
 
 use super::transfer;
 use crate::bench::Bench;
 use crate::page::{Page, Screen};
+use adaptarm_core::scenario::{Scenario, Scheme};
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
+use std::time::Instant;
 
 const MOVES: usize = 60;
 const WARM_UP: usize = 5;
 const VISITS: usize = 7;
 const DRAG: u32 = 120;
+const ROUNDS: usize = 15;
+
+/// Runs a scenario in the page's module, on the main thread and nothing beside it, and answers with the time in ms, report and
+/// all, and the trajectory's hash.
+const RUN: &str = "const [scenario, done] = arguments; (async () => { \
+        const script = document.querySelector('script[type=module]').src; \
+        const { default: init, Run } = await import(new URL('../generated/adaptarm_web.js', script)); \
+        await init(); const start = performance.now(); const run = new Run(scenario); run.advance(0xffffffff); \
+        const report = JSON.parse(run.report()); const elapsed = performance.now() - start; \
+        run.free(); done([elapsed, report.trajectory_hash]); })()";
 
 /// Moves the friction's slider, which runs all three schemes, and answers with two times: until the figures are on their
 /// canvases, and until the frame that shows them has ended.
@@ -47,7 +59,42 @@ pub fn run(bench: &Bench) -> Result<()> {
     println!("{:<44}{:>10}{:>10}{:>10}{:>10}", "", "median", "p95", "worst", "limit");
     slider(bench)?;
     dragging(bench)?;
-    first_visit(bench)
+    first_visit(bench)?;
+    against_native(bench)
+}
+
+/// The module of the page and the core of this program take turns over the default study; their hashes must be the same.
+fn against_native(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let mut times = Scheme::ALL.map(|_| [Vec::new(), Vec::new()]);
+    // One round more than counted: the first compiles the module.
+    for round in 0..=ROUNDS {
+        for (scheme, times) in Scheme::ALL.into_iter().zip(&mut times) {
+            let scenario = Scenario::new(scheme.paper())?;
+            let answer = page.run_async(RUN, &[json!(serde_json::to_string(scenario.document())?)])?;
+            let start = Instant::now();
+            let report = scenario.run().report;
+            let native_ms = start.elapsed().as_secs_f64() * 1e3;
+            ensure!(answer[1] == report.trajectory_hash, "{}: the page computes {}", scheme.name(), answer[1]);
+            if round > 0 {
+                times[0].push(answer[0].as_f64().context("no time")?);
+                times[1].push(native_ms);
+            }
+        }
+    }
+    println!("\nOne run in the page's module against the same natively, {ROUNDS} rounds in turns, equal hashes");
+    println!("{:<18}{:>12}{:>12}{:>12}{:>10}", "median", "page ms", "native ms", "ratio", "limit");
+    for (scheme, [page_ms, native_ms]) in Scheme::ALL.into_iter().zip(times) {
+        let ratios = page_ms.iter().zip(&native_ms).map(|(page, native)| page / native).collect();
+        let [page_ms, native_ms, ratio] = [page_ms, native_ms, ratios].map(median);
+        println!("{:<18}{page_ms:>12.2}{native_ms:>12.2}{ratio:>12.2}{:>10}", scheme.name(), 1.25);
+    }
+    Ok(())
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 fn slider(bench: &Bench) -> Result<()> {
