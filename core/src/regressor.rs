@@ -31,6 +31,7 @@ where
     let mut gradient = SVector::<T, P>::zeros();
     unrolled!(R::ENTRIES.len(), n => {
         let (i, k) = R::ENTRIES[n];
+        // The compiler may not drop a zero that a sum starts from.
         let mut is_first = true;
         for row in 0..i {
             is_first &= !R::LIVE[row][k];

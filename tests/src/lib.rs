@@ -10,6 +10,7 @@ pub mod postgres;
 pub mod process;
 pub mod s3;
 mod server;
+pub mod timing;
 pub mod workload;
 
 pub use machine::binary;

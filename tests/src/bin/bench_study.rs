@@ -6,6 +6,7 @@
 
 use adaptarm_core::lanes;
 use adaptarm_core::scenario::{Scenario, Scheme, run_each};
+use adaptarm_tests::timing::median;
 use anyhow::Result;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -23,11 +24,6 @@ fn seconds(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
     start.elapsed().as_secs_f64()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// Time per step of runs of 3 s to 3000 s, as often one after another as makes 3000 s, against the shortest.

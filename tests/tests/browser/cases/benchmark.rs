@@ -1,10 +1,12 @@
-//! The page's speed as `cargo xtask bench` prints it: its module against the same core compiled for this machine, a slider's way
-//! to the screen, the longest task while dragging, a first visit, its size. Limits stand beside; timing fails nothing, because machines differ and others may use this one.
+//! The page's speed as `cargo xtask bench` prints it: a slider's way to the screen, the longest task while dragging, a first
+//! visit, its size, its module against the same core compiled for this machine. Limits stand beside; timing fails nothing,
+//! because machines differ and others may use this one.
 
 use super::transfer;
 use crate::bench::Bench;
 use crate::page::{Page, Screen};
 use adaptarm_core::scenario::{Scenario, Scheme};
+use adaptarm_tests::timing::median;
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -90,11 +92,6 @@ fn against_native(bench: &Bench) -> Result<()> {
         println!("{:<18}{page_ms:>12.2}{native_ms:>12.2}{ratio:>12.2}{:>10}", scheme.name(), 1.25);
     }
     Ok(())
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 fn slider(bench: &Bench) -> Result<()> {
