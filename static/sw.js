@@ -176,8 +176,9 @@ self.addEventListener("fetch", (event) => {
     return;
   }
   if (request.mode === "navigate") {
-    event.respondWith(visit(event));
+    event.respondWith(visit(event).catch(() => fetch(request)));
   } else {
-    event.respondWith(kept(request).then((response) => response ?? fetch(request)));
+    // A cache that cannot be read is no reason to do without the file.
+    event.respondWith(kept(request).catch(() => null).then((response) => response ?? fetch(request)));
   }
 });

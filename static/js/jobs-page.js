@@ -3,13 +3,14 @@
 import { byId } from "./dom.js";
 import { JobDetails } from "./jobs/details.js";
 import { JobList } from "./jobs/list.js";
-import { buildMasthead } from "./masthead.js";
+import { buildMasthead, comeAlive } from "./masthead.js";
 import { strings } from "./strings/index.js";
 
 const root = document.documentElement;
 const ADDRESS = /^#([0-9a-f-]{36})(?:\/(\d+))?$/u;
 
 function main() {
+  comeAlive();
   buildMasthead("jobs");
   const place = byId("content");
   const list = new JobList();

@@ -36,9 +36,14 @@ export class Laboratory extends EventTarget {
     this.#submit(Object.keys(this.#state.documents));
   }
 
+  /** Schemes whose newest run has not ended. */
+  get pending() {
+    return Object.keys(this.#wanted).filter((scheme) => !this.isCurrent(scheme));
+  }
+
   /** Whether every scheme's newest run has ended. */
   get isReady() {
-    return Object.entries(this.#wanted).every(([scheme, wanted]) => this.results[scheme]?.generation === wanted);
+    return this.pending.length === 0;
   }
 
   /** Whether a scheme's result is that of its newest run. */

@@ -4,13 +4,15 @@
 import "./elements/scheme-card.js";
 import { Address } from "./address.js";
 import { announce } from "./announce.js";
+import { Calm } from "./calm.js";
 import { translated } from "./core-text.js";
 import { byId, element } from "./dom.js";
 import { formatSeconds } from "./format.js";
+import { LATE_AFTER_MS, gather } from "./gather.js";
 import { History } from "./history.js";
 import { takeHandover } from "./handover.js";
 import { Laboratory } from "./laboratory.js";
-import { buildMasthead } from "./masthead.js";
+import { buildMasthead, comeAlive } from "./masthead.js";
 import { notice } from "./notice.js";
 import { RunPool } from "./pool.js";
 import { learnNames } from "./refusal.js";
@@ -33,8 +35,6 @@ import { failureOf, loadModule } from "./wasm.js";
 import { Words } from "./words.js";
 
 const root = document.documentElement;
-/** Results that wait for others of the same change are drawn without them after this time. */
-const LATE_AFTER_MS = 100;
 
 async function main() {
   buildMasthead("playground");
@@ -42,10 +42,12 @@ async function main() {
   try {
     loaded = await loadModule();
   } catch (error) {
+    comeAlive();
     root.dataset.state = "failed";
     notice(strings.moduleMissing(failureOf(error).message), "error");
     return;
   }
+  comeAlive();
   const { bindings, module } = loaded;
   const description = translated(JSON.parse(bindings.describe()));
   learnNames(description);
@@ -69,6 +71,7 @@ async function main() {
   const runs = new bindings.Runs();
   const laboratory = new Laboratory(state, runs);
   const app = { bindings, module, description, state, paper, runs, timeline: new Timeline(), laboratory };
+  app.calm = new Calm(laboratory);
   app.words = new Words(description);
   app.history = new History(app);
   app.address = new Address(app);
@@ -76,8 +79,8 @@ async function main() {
   build(app);
 }
 
-/** `app` is what every feature gets: module, description, state, its history and address, laboratory, runs, timeline and, from
- * here on, figures. */
+/** `app` is what every feature gets: module, description, state, its history and address, laboratory, calm, runs, timeline and,
+ * from here on, figures. */
 function build(app) {
   const { module, description, state, paper, laboratory, timeline } = app;
   const figures = new Figures(app, byId("figures"));
@@ -88,7 +91,7 @@ function build(app) {
   const showTables = buildTables(byId("tables-body"), description);
   const cards = buildCards(app);
   buildPinned(byId("pinned"), figures);
-  buildStage(byId("stage"), app);
+  const redrawArms = buildStage(byId("stage"), app);
   const pins = buildCompare(byId("compare"), app);
   buildShare(byId("share"), app);
   buildServerRun(byId("server-run"), app);
@@ -130,9 +133,9 @@ function build(app) {
   });
   laboratory.addEventListener("progress", ({ detail: { scheme } }) => {
     cards[scheme].progress = laboratory.progress[scheme];
-    figures.redraw();
+    figures.redraw(() => app.calm.ask(redrawArms));
   });
-  showResults(app, cards, showTables);
+  showResults(app, cards, showTables, redrawArms);
 
   const size = Math.max(1, Math.min(description.schemes.length, navigator.hardwareConcurrency || 1));
   const pool = new RunPool(module, size, {
@@ -148,13 +151,10 @@ function build(app) {
   takeHandover(app);
 }
 
-/** Shows results as they come: all at once when the last of a change is there, or those there are when it lets wait. */
-function showResults({ laboratory, figures, timeline, description }, cards, showTables) {
-  let late = null;
-  let pendingTexts = null;
+/** Shows results: first figures, then, in calm, texts and arms. */
+function showResults({ laboratory, calm, figures, timeline, description }, cards, showTables, redrawArms) {
   const changed = new Set();
   const texts = () => {
-    pendingTexts = null;
     for (const scheme of changed) {
       cards[scheme].result = laboratory.results[scheme];
     }
@@ -165,39 +165,23 @@ function showResults({ laboratory, figures, timeline, description }, cards, show
   };
   // Everything on the page is that of the newest settings once both pixels and texts are.
   const sayReady = () => {
-    if (laboratory.isReady && pendingTexts === null && root.dataset.drawnGeneration === String(laboratory.generation)) {
+    if (laboratory.isReady && changed.size === 0 && root.dataset.drawnGeneration === String(laboratory.generation)) {
       root.dataset.state = "ready";
       byId("run-state").textContent = strings.stateReady(root.dataset.lastLatencyMs);
       const parts = description.schemes.map(({ id, name }) => `${name}: ${endOf(laboratory.results[id])}.`);
       announce(strings.announceReady(parts.join(" ")));
     }
   };
-  // In a task of their own behind the next frame: first the pixels.
-  const textsSoon = () => {
-    pendingTexts ??= requestAnimationFrame(() => setTimeout(texts));
-  };
-  const showLate = () => {
-    figures.redraw();
-    textsSoon();
-  };
-  laboratory.addEventListener("result", ({ detail: { scheme } }) => {
-    changed.add(scheme);
-    clearTimeout(late);
-    if (laboratory.isReady) {
-      const { generation } = laboratory;
-      textsSoon();
-      figures.redraw(
-        () => {
-          noteLatency(laboratory, generation);
-          sayReady();
-        },
-        { atOnce: true },
-      );
-    } else {
-      // Drawing now would only keep the processor from the runs that are still under way.
-      const waited = performance.now() - laboratory.askedAt;
-      late = setTimeout(showLate, Math.max(0, LATE_AFTER_MS - waited));
-    }
+  laboratory.addEventListener("result", ({ detail: { scheme } }) => changed.add(scheme));
+  gather(laboratory, (isComplete) => {
+    const { generation } = laboratory;
+    calm.ask(texts);
+    const drawn = () => {
+      noteLatency(laboratory, generation);
+      sayReady();
+      calm.ask(redrawArms);
+    };
+    figures.redraw(drawn, { atOnce: isComplete });
   });
 }
 

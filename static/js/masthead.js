@@ -27,6 +27,11 @@ export function buildMasthead(current, title = strings.titles[current], descript
   keepOffline();
 }
 
+/** The page's scripts are all there: from now on it says by itself what is wrong (see early-watch.js). */
+export function comeAlive() {
+  document.documentElement.dataset.alive = "";
+}
+
 /** Each language by its own name, for whoever does not read the present one. */
 function languageChoice() {
   const options = Object.entries(LANGUAGES).map(([code, name]) =>

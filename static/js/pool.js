@@ -110,12 +110,15 @@ export class RunPool {
         return;
       }
       slot.job = null;
+      // Before the result is dealt with: the free worker need not wait for that.
+      this.#dispatch();
       if (data.type === "done") {
         const { report, rows, elapsed_ms } = data;
         this.#handlers.done({ scheme, generation, scenario, report, rows, elapsed_ms });
       } else if (stop) {
         this.#handlers.stopped({ scheme, generation, progress: data.progress });
       }
+      return;
     }
     this.#dispatch();
   }

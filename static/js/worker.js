@@ -6,14 +6,16 @@
 
 import init, { Run } from "../generated/adaptarm_web.js";
 
-/** Length of a slice. Short beside a frame, long beside the cost of looking for messages. */
-const SLICE_MS = 6;
+/** Length of a slice: as soon as this a run hears that it is stale. Half as long cost two or three milliseconds of a study's sixty. */
+const SLICE_MS = 12;
 /** A stale run that ends this soon is finished: while a slider is dragged, something must get to the screen. */
 const NEARLY_DONE_MS = 80;
 const PROGRESS_EVERY_MS = 100;
 /** What is drawn of a run under way: a picture is no wider than this. */
 const PARTIAL_ROWS = 1500;
 
+/** Steps of a slice: what the last ones took says how many the next may have. */
+let steps = 1000;
 /** The run to give up, and whether at once. */
 let abandoned = { job: null, now: false };
 
@@ -31,7 +33,6 @@ async function compute(job, scenario) {
   const start = performance.now();
   const run = new Run(scenario);
   try {
-    let steps = 200;
     let reported = start;
     for (;;) {
       const before = performance.now();

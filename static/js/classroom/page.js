@@ -6,7 +6,7 @@
 
 import { byId, element, fillTexts } from "../dom.js";
 import { jump } from "../jump.js";
-import { buildMasthead } from "../masthead.js";
+import { buildMasthead, comeAlive } from "../masthead.js";
 import { texts } from "../strings/classroom.js";
 import { strings } from "../strings/index.js";
 import { signOutButton } from "./account.js";
@@ -47,6 +47,7 @@ export class ClassPage {
     this.#enter = enter;
     this.#view = view;
     this.#other = other;
+    comeAlive();
     buildMasthead("classroom", title, description);
     fillTexts({ ...strings, ...texts });
     document.addEventListener("click", (event) => jump(event));

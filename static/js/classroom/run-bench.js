@@ -3,6 +3,7 @@
 // `show` takes scenarios by name; "result" is said when all the newest are computed. Knows nothing of grades.
 
 import { element } from "../dom.js";
+import { gather } from "../gather.js";
 import { Laboratory } from "../laboratory.js";
 import { notice } from "../notice.js";
 import { RunPool } from "../pool.js";
@@ -71,10 +72,9 @@ export class RunBench extends EventTarget {
   }
 
   #listen() {
-    this.#laboratory.addEventListener("result", () => {
-      const ready = this.#laboratory.isReady;
-      this.figures.redraw(null, { atOnce: ready });
-      if (ready) {
+    gather(this.#laboratory, (isComplete) => {
+      this.figures.redraw(null, { atOnce: isComplete });
+      if (isComplete) {
         const { results } = this.#laboratory;
         this.figures.describe(Object.fromEntries(this.#names.map((id) => [id, results[id].report])), this.timeline.duration);
         this.dispatchEvent(new Event("result"));

@@ -76,10 +76,18 @@ export class ArmView extends HTMLElement {
     }
   }
 
+  /** Newer runs are under way: what waits for rest waits anew. */
+  runsAsked() {
+    if (this.#resting !== null) {
+      this.#refine();
+    }
+  }
+
   /** Draws finely once things rest. */
   #refine() {
     clearTimeout(this.#resting);
     this.#resting = setTimeout(() => {
+      this.#resting = null;
       this.#fine = true;
       this.#schedule();
     }, REST_MS);
@@ -158,7 +166,7 @@ export class ArmView extends HTMLElement {
       return;
     }
     const slow = this.#gl?.is_slow === true;
-    const scale = slow ? (this.#fine ? FINEST : 1) : Math.min(devicePixelRatio || 1, FINEST);
+    const scale = this.#scale(slow);
     const width = Math.round(this.#size.width * scale);
     const height = Math.round(this.#size.height * scale);
     if (width < 1 || height < 1 || (!this.#gl && !this.#flat)) {
@@ -181,6 +189,15 @@ export class ArmView extends HTMLElement {
       this.#refine();
     }
     this.dispatchEvent(new CustomEvent("drawn", { detail: view }));
+  }
+
+  /** Device pixels per layout pixel. */
+  #scale(slow) {
+    if (slow && !this.#fine) {
+      return 1;
+    }
+    // Where nothing else smooths edges, more pixels do.
+    return slow && !this.#gl.is_smooth ? FINEST : Math.min(devicePixelRatio || 1, FINEST);
   }
 
   #resize({ width, height }) {

@@ -81,8 +81,9 @@ export function buildCompare(place, app) {
   pins.addEventListener("changed", show);
   app.state.addEventListener("shown", overlay);
   onTheme(overlay);
-  app.laboratory.addEventListener("result", () => table.show());
-  app.state.addEventListener("changed", () => table.show());
+  const showTable = () => table.show();
+  app.laboratory.addEventListener("result", () => app.calm.ask(showTable));
+  app.state.addEventListener("changed", showTable);
   show();
   return pins;
 }

@@ -11,16 +11,7 @@ export function buildExplain(app) {
   buildGlossary(byId("tour-start"));
   addToFigures();
   const show = buildWhy(byId("why"), app);
-  let pending = null;
-  app.laboratory.addEventListener("result", () => {
-    // Once a frame, after the figures: the text may be a frame late, a slider may not.
-    pending ??= requestAnimationFrame(() => {
-      pending = null;
-      if (app.laboratory.isReady) {
-        show();
-      }
-    });
-  });
+  app.laboratory.addEventListener("result", () => app.calm.ask(show));
 }
 
 /** A button in the head of every figure among the results, beside the figure's own tools where it has some. */

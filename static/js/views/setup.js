@@ -78,7 +78,10 @@ export function buildSetup(container, { description, state, laboratory, resetAll
   return function show(anew = false) {
     const chosen = studyOf(description.studies, state);
     study.value = chosen;
-    help.textContent = strings.studyHelp[chosen];
+    // The same text anew would lay the controls out again.
+    if (help.textContent !== strings.studyHelp[chosen]) {
+      help.textContent = strings.studyHelp[chosen];
+    }
     for (const { field, pointer } of fields) {
       field[anew ? "accept" : "show"](valueOf(pointer));
     }

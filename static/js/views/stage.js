@@ -1,6 +1,6 @@
 // The stage: the arm or arms, what is said about them, and the transport below.
 //
-// Arms are drawn after the figures of the same results, and what the canvas says is brought up to date when time rests.
+// What the canvas says is brought up to date when time rests.
 
 import "../elements/arm-view.js";
 import "../elements/transport-bar.js";
@@ -21,9 +21,9 @@ const TIP = 12;
 const TIP_OFF = 30;
 const BEYOND = 31;
 
-/** Builds it. */
+/** Builds it; returns a function to call when the runs have changed. */
 export function buildStage(place, app) {
-  const { description, state, runs, bindings, timeline, laboratory, figures } = app;
+  const { description, state, runs, bindings, timeline, laboratory } = app;
   const texts = strings.stage;
   const schemes = description.schemes;
   const saved = load(KEY);
@@ -121,12 +121,11 @@ export function buildStage(place, app) {
   view.configure(app, wanted);
   timeline.addEventListener("time", () => view.redraw());
   timeline.addEventListener("playing", () => view.redraw());
-  for (const type of ["progress", "result"]) {
-    laboratory.addEventListener(type, () => figures.redraw(() => view.redrawRuns()));
-  }
   laboratory.addEventListener("shown", arrange);
+  laboratory.addEventListener("asked", () => view.runsAsked());
   onTheme(() => view.redraw());
   arrange();
+  return () => view.redrawRuns();
 }
 
 /** One arm or all, which, how large errors are drawn, and the buttons of the camera. */

@@ -77,10 +77,23 @@ impl<'a> Page<'a> {
         Self::blank_with(bench, screen, Graphics::Off)
     }
 
+    /// The same, for pages that are looked at before all of their files are there.
+    pub fn impatient(bench: &'a Bench, screen: Screen) -> Result<Self> {
+        let profile = tempfile::tempdir()?;
+        let mut wanted = capabilities(&profile, screen, Graphics::Off);
+        wanted.insert("pageLoadStrategy".to_owned(), json!("none"));
+        Self::begin(bench, profile, wanted)
+    }
+
     fn blank_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
         let profile = tempfile::tempdir()?;
+        let wanted = capabilities(&profile, screen, graphics);
+        Self::begin(bench, profile, wanted)
+    }
+
+    fn begin(bench: &'a Bench, profile: TempDir, wanted: Capabilities) -> Result<Self> {
         let mut builder = ClientBuilder::new(HttpConnector::new());
-        builder.capabilities(capabilities(&profile, screen, graphics));
+        builder.capabilities(wanted);
         let client = bench.runtime.block_on(builder.connect(&bench.driver.url)).context("cannot open a browser")?;
         Ok(Self { bench, client, _profile: profile })
     }
@@ -170,7 +183,8 @@ impl<'a> Page<'a> {
         while self.run(condition, &[])? != json!(true) {
             if start.elapsed() > PATIENCE {
                 let state = self.run("return JSON.stringify(document.documentElement.dataset)", &[])?;
-                bail!("waited {PATIENCE:?} in vain for: {condition}; the page's state is {state}");
+                let logged = self.log("browser")?;
+                bail!("waited {PATIENCE:?} in vain for: {condition}; the page's state is {state}, its log {logged:?}");
             }
             std::thread::sleep(EVERY);
         }

@@ -24,8 +24,22 @@ pub(super) fn context(canvas: &HtmlCanvasElement) -> Result<(Gl, bool), Failed> 
         attributes.set_fail_if_major_performance_caveat(!slow);
         canvas.get_context_with_context_options("webgl2", attributes.as_ref()).ok()??.dyn_into().ok()
     };
-    let fast = attempt(false).map(|gl| (gl, false));
+    let fast = attempt(false).map(|gl| {
+        let slow = is_drawn_by_processor(&gl);
+        (gl, slow)
+    });
     fast.or_else(|| attempt(true).map(|gl| (gl, true))).ok_or_else(|| "this browser offers no WebGL2".to_owned())
+}
+
+/// Not every browser whose processor draws calls that a caveat; the renderer's name tells.
+fn is_drawn_by_processor(gl: &Gl) -> bool {
+    // UNMASKED_RENDERER_WEBGL of the extension; browsers without it say the name themselves.
+    let parameter = match gl.get_extension("WEBGL_debug_renderer_info") {
+        Ok(Some(_)) => 0x9246,
+        _ => Gl::RENDERER,
+    };
+    let name = gl.get_parameter(parameter).ok().and_then(|name| name.as_string()).unwrap_or_default().to_lowercase();
+    ["swiftshader", "llvmpipe", "softpipe", "software", "basic render"].iter().any(|known| name.contains(known))
 }
 
 /// A linked pair of shaders.

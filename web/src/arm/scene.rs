@@ -120,6 +120,15 @@ impl Scene {
         Ok(())
     }
 
+    /// Whether edges are smoothed by multisampling.
+    pub fn is_smooth(&self) -> bool {
+        self.gl
+            .get_parameter(Gl::SAMPLES)
+            .ok()
+            .and_then(|samples| samples.as_f64())
+            .is_some_and(|samples| samples > 0.0)
+    }
+
     /// Whether the latest drawing is still being made.
     pub fn is_busy(&self) -> bool {
         let status = |fence| self.gl.get_sync_parameter(fence, Gl::SYNC_STATUS).as_f64();

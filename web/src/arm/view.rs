@@ -57,6 +57,12 @@ mod drawing {
             self.scene.is_slow
         }
 
+        /// Whether edges are smoothed without drawing more finely.
+        #[wasm_bindgen(getter)]
+        pub fn is_smooth(&self) -> bool {
+            self.scene.is_smooth()
+        }
+
         /// Whether the latest drawing is still being made: another one would only wait behind it.
         #[wasm_bindgen(getter)]
         pub fn is_busy(&self) -> bool {

@@ -1,33 +1,52 @@
-//! How long a slider move takes until all its results are on the canvases. Prints what it measures.
+//! How long a slider move takes until all its results are on the canvases, and that they are drawn once. Prints what it measures.
 //!
 //! How fast a machine is, and what else it does, is not the page's: only the long form, which runs alone, has a bound.
 
 use crate::bench::Bench;
 use crate::native::gain_field;
-use crate::page::{Page, Screen};
+use crate::page::{Graphics, Page, Screen};
 use adaptarm_core::scenario::Scheme;
 use adaptarm_tests::machine;
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
+use std::time::Duration;
 
 const SAMPLES: usize = 9;
 /// The bound that the study promises: all three schemes, default study.
 const BOUND_MS: f64 = 250.0;
 
-/// Moves a slider once and answers with the milliseconds until everything is drawn.
+/// Moves a slider once and answers with the milliseconds until its figures are drawn.
 const MEASURE: &str = "const [field, step, done] = arguments; const root = document.documentElement; \
     const slider = document.querySelector(field + ' input[type=range]'); \
     const start = performance.now(); \
-    slider.value = Number(slider.value) + step; slider.dispatchEvent(new Event('input', { bubbles: true })); \
+    const before = root.dataset.drawnGeneration; \
     new MutationObserver((_, observer) => { \
-        if (root.dataset.state === 'ready') { observer.disconnect(); done(performance.now() - start); } \
-    }).observe(root, { attributes: true, attributeFilter: ['data-state'] })";
+        if (root.dataset.drawnGeneration !== before) { observer.disconnect(); done(performance.now() - start); } \
+    }).observe(root, { attributes: true, attributeFilter: ['data-drawn-generation'] }); \
+    slider.value = Number(slider.value) + step; slider.dispatchEvent(new Event('input', { bubbles: true }))";
+/// All schemes' slider.
+const FRICTION: &str = "#setup [data-pointer=\"/plant/friction/width_rad_s\"]";
+
+/// Counts drawings from now on.
+const COUNT: &str = "for (const card of document.querySelectorAll('figure-card')) { \
+        let at = card.drawnAt; card.drawings = 0; \
+        Object.defineProperty(card, 'drawnAt', { get: () => at, set: (now) => { at = now; card.drawings += 1; } }); \
+    } window.armsBefore = document.querySelector('arm-view').drawings";
+/// How often each figure in view was drawn since the last call, and the arms; then how long the last results took, ms.
+const COUNTED: &str = "const arms = document.querySelector('arm-view').drawings; \
+    const shown = [...document.querySelectorAll('figure-card')].filter(({ inView }) => inView); \
+    const counted = [shown.map(({ drawings }) => drawings), arms - window.armsBefore, \
+        Number(document.documentElement.dataset.lastLatencyMs)]; \
+    shown.forEach((card) => { card.drawings = 0; }); window.armsBefore = arms; return counted";
+/// Results that take longer than this are drawn before all of them are there; see `static/js/gather.js`.
+const LATE_MS: f64 = 100.0;
+/// After this nothing more follows from results; see `static/js/calm.js`.
+const CALM: Duration = Duration::from_millis(300);
 
 pub fn a_slider_move_is_drawn_in_time(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    let all = "#setup [data-pointer=\"/plant/friction/width_rad_s\"]";
     let one = gain_field(Scheme::Proposed, "/scheme/gains/k_v/0");
-    let all_ms = measure(&page, all)?;
+    let all_ms = measure(&page, FRICTION)?;
     let one_ms = measure(&page, &one)?;
     for (what, times_ms) in [("all three schemes", &all_ms), ("one scheme", &one_ms)] {
         let list: Vec<_> = times_ms.iter().map(|time| format!("{time:.0}")).collect();
@@ -39,6 +58,71 @@ pub fn a_slider_move_is_drawn_in_time(bench: &Bench) -> Result<()> {
         median(&all_ms)
     );
     Ok(())
+}
+
+pub fn a_move_is_drawn_once(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    // Shorter than the study, so that a busy machine is not late, and longer than a frame.
+    page.type_into("#setup [data-pointer=\"/integration/duration_s\"] .exact input", "6")?;
+    page.ready()?;
+    std::thread::sleep(CALM);
+    page.run(COUNT, &[])?;
+    let mut in_time = 0;
+    for n in 0..12 {
+        page.run_async(MEASURE, &[json!(FRICTION), json!(if n % 2 == 0 { 4 } else { -4 })])?;
+        page.ready()?;
+        page.wait_for("return document.querySelector('arm-view').drawings > window.armsBefore")?;
+        // What is drawn too often is drawn soon after.
+        std::thread::sleep(CALM);
+        let counted = page.run(COUNTED, &[])?;
+        let figures: Vec<f64> = serde_json::from_value(counted[0].clone())?;
+        let (arms, took_ms) = (counted[1].as_f64().context("no arms")?, counted[2].as_f64().context("no time")?);
+        ensure!(!figures.is_empty() && figures.iter().all(|drawings| *drawings > 0.0), "not drawn: {figures:?}");
+        in_time += i32::from(took_ms < LATE_MS);
+        let most = 1.0 + (took_ms / LATE_MS).floor();
+        ensure!(figures.iter().all(|drawings| *drawings <= most), "move {n}, {took_ms} ms: figures {figures:?} times");
+        ensure!(arms <= most, "move {n}, {took_ms} ms: arms {arms} times");
+    }
+    println!("{in_time} of 12 moves were drawn within {LATE_MS} ms");
+    Ok(())
+}
+
+/// Drags without a rest and answers with how often the first figure and the arms were drawn by the last move.
+const DRAG: &str = "const [moves, field, done] = arguments; let n = 0; \
+    const slider = document.querySelector(field + ' input[type=range]'); \
+    const card = [...document.querySelectorAll('figure-card')].find(({ inView }) => inView); \
+    const timer = setInterval(() => { slider.value = 40 * Math.sin(n / 10); \
+        slider.dispatchEvent(new Event('input', { bubbles: true })); \
+        if (++n === moves) { clearInterval(timer); \
+            done([card.drawings, document.querySelector('arm-view').drawings - window.armsBefore]); } }, 16)";
+
+pub fn a_finger_that_never_rests_sees_results(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    std::thread::sleep(CALM);
+    for (moves, field) in [(120, FRICTION.to_owned()), (120, gain_field(Scheme::Proposed, "/scheme/gains/k_v/0"))] {
+        page.run(COUNT, &[])?;
+        let drawn: [u64; 2] = serde_json::from_value(page.run_async(DRAG, &[json!(moves), json!(field)])?)?;
+        println!("{moves} moves without a rest: figures drawn {} times, arms {} times", drawn[0], drawn[1]);
+        ensure!(
+            drawn.iter().all(|times| *times >= 3),
+            "while {field} is dragged, figures and arms are drawn {drawn:?} times"
+        );
+        page.ready()?;
+    }
+    Ok(())
+}
+
+pub fn where_a_processor_draws_arms_wait_for_rest(bench: &Bench) -> Result<()> {
+    let page = Page::open_with(bench, Screen::Desktop, Graphics::Software)?;
+    // The fine drawing of the first results.
+    page.wait_for("return document.querySelector('arm-view').drawings > 0")?;
+    std::thread::sleep(Duration::from_secs(2));
+    page.run(COUNT, &[])?;
+    let [figures, arms]: [u64; 2] = serde_json::from_value(page.run_async(DRAG, &[json!(120), json!(FRICTION)])?)?;
+    println!("120 moves without a rest: figures drawn {figures} times, arms {arms} times");
+    ensure!(figures >= 3 && arms <= 1, "figures drawn {figures} times, arms {arms} times");
+    page.ready()?;
+    page.wait_for("return document.querySelector('arm-view').drawings > window.armsBefore")
 }
 
 /// Sorted times, after one move to warm up.

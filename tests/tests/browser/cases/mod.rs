@@ -3,6 +3,7 @@
 mod accessibility;
 mod appearance;
 mod arm;
+mod arrival;
 pub mod benchmark;
 mod classroom;
 mod classroom_forms;
@@ -73,6 +74,9 @@ pub const ALL: &[(&str, Case)] = &[
     ("every_colour_of_text_has_enough_contrast", appearance::every_colour_of_text_has_enough_contrast),
     ("screenshots", appearance::screenshots),
     ("a_slider_move_is_drawn_in_time", latency::a_slider_move_is_drawn_in_time),
+    ("a_move_is_drawn_once", latency::a_move_is_drawn_once),
+    ("where_a_processor_draws_arms_wait_for_rest", latency::where_a_processor_draws_arms_wait_for_rest),
+    ("a_finger_that_never_rests_sees_results", latency::a_finger_that_never_rests_sees_results),
     (
         "a_long_run_is_drawn_while_it_computes_and_can_be_stopped",
         long_runs::a_long_run_is_drawn_while_it_computes_and_can_be_stopped,
@@ -152,6 +156,9 @@ pub const ALL: &[(&str, Case)] = &[
     ("a_new_version_replaces_the_old_one_whole", offline::a_new_version_replaces_the_old_one_whole),
     ("another_tab_follows_to_the_new_version", offline::another_tab_follows_to_the_new_version),
     ("the_page_can_be_installed", offline::it_can_be_installed),
+    ("a_page_that_waits_for_a_file_says_so", arrival::a_page_that_waits_for_a_file_says_so),
+    ("a_page_without_a_script_says_so", arrival::a_page_without_a_script_says_so),
+    ("a_script_that_fails_once_is_asked_for_again", arrival::a_script_that_fails_once_is_asked_for_again),
     ("a_first_visit_is_small", transfer::a_first_visit_is_small),
     (
         "after_two_hundred_random_moves_nothing_is_left_over",
