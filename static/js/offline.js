@@ -5,7 +5,7 @@ import { element } from "./dom.js";
 import { notice } from "./notice.js";
 import { strings } from "./strings/index.js";
 
-/** After the first results: downloading files must not compete with them. */
+/** After the first results, and while nobody moves a slider: downloading files must not compete with runs. */
 const AFTER_MS = 1500;
 const CHECK_EVERY_MS = 30 * 60_000;
 /** A click on a download fires the same event as leaving, but nothing follows. */
@@ -27,12 +27,26 @@ export function keepOffline() {
     }, LEAVING_MS);
   });
   container.addEventListener("message", ({ data }) => hear(data));
-  const begin = () => setTimeout(() => register(container), AFTER_MS);
+  const begin = () => inRest(() => register(container));
   if (document.readyState === "complete") {
     begin();
   } else {
     addEventListener("load", begin);
   }
+}
+
+/** Calls `act` once nobody has put anything in for a while. */
+function inRest(act) {
+  let timer = null;
+  const wait = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      removeEventListener("input", wait, true);
+      act();
+    }, AFTER_MS);
+  };
+  addEventListener("input", wait, true);
+  wait();
 }
 
 async function register(container) {
