@@ -175,10 +175,10 @@ self.addEventListener("fetch", (event) => {
   if (request.method !== "GET" || !request.url.startsWith(scope) || dynamic || request.url === LIST) {
     return;
   }
+  // A cache that cannot be read is no reason to do without the file.
   if (request.mode === "navigate") {
     event.respondWith(visit(event).catch(() => fetch(request)));
   } else {
-    // A cache that cannot be read is no reason to do without the file.
     event.respondWith(kept(request).catch(() => null).then((response) => response ?? fetch(request)));
   }
 });

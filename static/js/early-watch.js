@@ -59,6 +59,7 @@
     if (mayReload()) {
       location.reload();
     } else {
+      clearTimeout(late);
       say(TEXTS.missing, "error");
     }
   }

@@ -42,12 +42,12 @@ async function main() {
   try {
     loaded = await loadModule();
   } catch (error) {
-    comeAlive();
     root.dataset.state = "failed";
     notice(strings.moduleMissing(failureOf(error).message), "error");
     return;
+  } finally {
+    comeAlive();
   }
-  comeAlive();
   const { bindings, module } = loaded;
   const description = translated(JSON.parse(bindings.describe()));
   learnNames(description);

@@ -9,6 +9,7 @@ mod bench;
 mod cases;
 mod contrast;
 mod driver;
+mod moves;
 mod native;
 mod page;
 mod pictures;

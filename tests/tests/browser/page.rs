@@ -66,7 +66,7 @@ impl<'a> Page<'a> {
 
     /// The same with 3-D graphics, or without.
     pub fn open_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
-        let page = Self::blank_with(bench, screen, graphics)?;
+        let page = Self::begin(bench, screen, graphics, "normal")?;
         page.visit()?;
         page.ready()?;
         Ok(page)
@@ -74,24 +74,19 @@ impl<'a> Page<'a> {
 
     /// Opens a browser with nothing in it.
     pub fn blank(bench: &'a Bench, screen: Screen) -> Result<Self> {
-        Self::blank_with(bench, screen, Graphics::Off)
+        Self::begin(bench, screen, Graphics::Off, "normal")
     }
 
     /// The same, for pages that are looked at before all of their files are there.
     pub fn impatient(bench: &'a Bench, screen: Screen) -> Result<Self> {
-        let profile = tempfile::tempdir()?;
-        let mut wanted = capabilities(&profile, screen, Graphics::Off);
-        wanted.insert("pageLoadStrategy".to_owned(), json!("none"));
-        Self::begin(bench, profile, wanted)
+        Self::begin(bench, screen, Graphics::Off, "none")
     }
 
-    fn blank_with(bench: &'a Bench, screen: Screen, graphics: Graphics) -> Result<Self> {
+    /// `load` is WebDriver's page load strategy.
+    fn begin(bench: &'a Bench, screen: Screen, graphics: Graphics, load: &str) -> Result<Self> {
         let profile = tempfile::tempdir()?;
-        let wanted = capabilities(&profile, screen, graphics);
-        Self::begin(bench, profile, wanted)
-    }
-
-    fn begin(bench: &'a Bench, profile: TempDir, wanted: Capabilities) -> Result<Self> {
+        let mut wanted = capabilities(&profile, screen, graphics);
+        wanted.insert("pageLoadStrategy".to_owned(), json!(load));
         let mut builder = ClientBuilder::new(HttpConnector::new());
         builder.capabilities(wanted);
         let client = bench.runtime.block_on(builder.connect(&bench.driver.url)).context("cannot open a browser")?;

@@ -5,6 +5,7 @@ use super::mesh::{Mesh, VERTEX};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use wasm_bindgen::{JsCast, JsValue};
+use web_sys::WebglDebugRendererInfo;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlContextAttributes};
 use web_sys::{WebGlBuffer, WebGlProgram, WebGlShader, WebGlUniformLocation, WebGlVertexArrayObject};
 
@@ -33,9 +34,9 @@ pub(super) fn context(canvas: &HtmlCanvasElement) -> Result<(Gl, bool), Failed> 
 
 /// Not every browser whose processor draws calls that a caveat; the renderer's name tells.
 fn is_drawn_by_processor(gl: &Gl) -> bool {
-    // UNMASKED_RENDERER_WEBGL of the extension; browsers without it say the name themselves.
+    // Browsers without the extension say the name themselves.
     let parameter = match gl.get_extension("WEBGL_debug_renderer_info") {
-        Ok(Some(_)) => 0x9246,
+        Ok(Some(_)) => WebglDebugRendererInfo::UNMASKED_RENDERER_WEBGL,
         _ => Gl::RENDERER,
     };
     let name = gl.get_parameter(parameter).ok().and_then(|name| name.as_string()).unwrap_or_default().to_lowercase();

@@ -43,6 +43,8 @@ pub(super) struct Scene {
     fence: Option<WebGlSync>,
     /// A processor does the graphics card's work.
     pub is_slow: bool,
+    /// Edges are smoothed by multisampling.
+    pub is_smooth: bool,
 }
 
 /// A run's paths, and what they were made from.
@@ -72,6 +74,7 @@ enum Shown {
 impl Scene {
     pub fn new(canvas: &HtmlCanvasElement) -> Result<Self, Failed> {
         let (gl, is_slow) = context(canvas)?;
+        let samples = gl.get_parameter(Gl::SAMPLES).ok().and_then(|samples| samples.as_f64());
         let arm = Kinematics::new(ROBOTS[0]);
         Ok(Self {
             solid: Program::new(&gl, shaders::SOLID_VERTEX, shaders::SOLID_FRAGMENT)?,
@@ -84,6 +87,7 @@ impl Scene {
             reach: arm.lengths_m()[1..].iter().sum::<f64>() as f32,
             fence: None,
             is_slow,
+            is_smooth: samples.is_some_and(|samples| samples > 0.0),
             gl,
         })
     }
@@ -118,15 +122,6 @@ impl Scene {
         self.fence = gl.fence_sync(Gl::SYNC_GPU_COMMANDS_COMPLETE, 0);
         gl.flush();
         Ok(())
-    }
-
-    /// Whether edges are smoothed by multisampling.
-    pub fn is_smooth(&self) -> bool {
-        self.gl
-            .get_parameter(Gl::SAMPLES)
-            .ok()
-            .and_then(|samples| samples.as_f64())
-            .is_some_and(|samples| samples > 0.0)
     }
 
     /// Whether the latest drawing is still being made.

@@ -60,7 +60,7 @@ mod drawing {
         /// Whether edges are smoothed without drawing more finely.
         #[wasm_bindgen(getter)]
         pub fn is_smooth(&self) -> bool {
-            self.scene.is_smooth()
+            self.scene.is_smooth
         }
 
         /// Whether the latest drawing is still being made: another one would only wait behind it.

@@ -4,6 +4,7 @@
 
 use super::transfer;
 use crate::bench::Bench;
+use crate::moves::{DRAG, FRICTION, MOVE};
 use crate::page::{Page, Screen};
 use adaptarm_core::scenario::{Report, Scenario, Scheme, SideBySide};
 use adaptarm_tests::timing::median;
@@ -14,7 +15,7 @@ use std::time::Instant;
 const MOVES: usize = 60;
 const WARM_UP: usize = 5;
 const VISITS: usize = 7;
-const DRAG: u32 = 120;
+const DRAGGED: u32 = 120;
 const ROUNDS: usize = 15;
 
 /// Runs a scenario in the page's module, on the main thread and nothing beside it, and answers with the time in ms, report and
@@ -25,28 +26,6 @@ const RUN: &str = "const [scenario, done] = arguments; (async () => { \
         await init(); const start = performance.now(); const run = new Run(scenario); run.advance(0xffffffff); \
         const report = JSON.parse(run.report()); const elapsed = performance.now() - start; \
         run.free(); done([elapsed, report.trajectory_hash]); })()";
-
-/// Moves the friction's slider, which runs all three schemes, and answers with two times: until the figures are on their
-/// canvases, and until the frame that shows them has ended.
-const MOVE: &str = "const [step, done] = arguments; const root = document.documentElement; \
-    const slider = document.querySelector('#setup [data-pointer=\"/plant/friction/width_rad_s\"] input[type=range]'); \
-    const { port1, port2 } = new MessageChannel(); const start = performance.now(); let drawn; \
-    port1.onmessage = () => done([drawn, performance.now() - start, Number(root.dataset.lastLatencyMs)]); \
-    const before = root.dataset.drawnGeneration; \
-    new MutationObserver((_, observer) => { if (root.dataset.drawnGeneration === before) return; \
-        observer.disconnect(); drawn = performance.now() - start; \
-        requestAnimationFrame(() => port2.postMessage(null)); \
-    }).observe(root, { attributes: true, attributeFilter: ['data-drawn-generation'] }); \
-    slider.value = Number(slider.value) + step; slider.dispatchEvent(new Event('input', { bubbles: true }))";
-
-/// Drags at the rate of a screen's frames and answers with the lengths of tasks of 50 ms and more on the main thread.
-const DRAG_ALONG: &str = "const [moves, done] = arguments; const tasks = []; let n = 0; \
-    const observer = new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({ duration }) => duration))); \
-    observer.observe({ type: 'longtask' }); \
-    const slider = document.querySelector('#setup [data-pointer=\"/plant/friction/width_rad_s\"] input[type=range]'); \
-    const timer = setInterval(() => { slider.value = 40 * Math.sin(n / 10); \
-        slider.dispatchEvent(new Event('input', { bubbles: true })); \
-        if (++n === moves) { clearInterval(timer); setTimeout(() => { observer.disconnect(); done(tasks); }, 1000); } }, 16)";
 
 /// Notes when the first results were on the screen.
 const FIRST_READY: &str = "new MutationObserver((_, observer) => { \
@@ -124,7 +103,7 @@ fn slider(bench: &Bench) -> Result<()> {
     for n in 0..WARM_UP + MOVES {
         // Never the same value twice in a row, and no pattern that caches could know.
         let step = [3, -5, 4, -2, 6, -6][n % 6];
-        let times = page.run_async(MOVE, &[json!(step)])?;
+        let times = page.run_async(MOVE, &[json!(FRICTION), json!(step)])?;
         if n >= WARM_UP {
             for (at, list) in [&mut canvas, &mut frame, &mut told].into_iter().enumerate() {
                 list.push(times[at].as_f64().context("no time")?);
@@ -139,10 +118,10 @@ fn slider(bench: &Bench) -> Result<()> {
 
 fn dragging(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    let tasks = numbers(&page.run_async(DRAG_ALONG, &[json!(DRAG)])?)?;
+    let tasks = numbers(&page.run_async(DRAG, &[json!(FRICTION), json!(DRAGGED)])?[1])?;
     let longest = tasks.iter().copied().fold(f64::NAN, f64::max);
     let longest = if tasks.is_empty() { "below 50".to_owned() } else { format!("{longest:.0}") };
-    let what = format!("longest task of {DRAG} moves, ms ({} of 50 and more)", tasks.len());
+    let what = format!("longest task of {DRAGGED} moves, ms ({} of 50 and more)", tasks.len());
     println!("{what:<44}{:>10}{:>10}{longest:>10}{:>10}", "", "", 50);
     Ok(())
 }

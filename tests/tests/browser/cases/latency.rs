@@ -3,29 +3,20 @@
 //! How fast a machine is, and what else it does, is not the page's: only the long form, which runs alone, has a bound.
 
 use crate::bench::Bench;
+use crate::moves::{DRAG, FRICTION, MOVE};
 use crate::native::gain_field;
 use crate::page::{Graphics, Page, Screen};
 use adaptarm_core::scenario::Scheme;
 use adaptarm_tests::machine;
+use adaptarm_tests::timing::median;
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 use std::time::Duration;
 
 const SAMPLES: usize = 9;
+const DRAGGED: u32 = 120;
 /// The bound that the study promises: all three schemes, default study.
 const BOUND_MS: f64 = 250.0;
-
-/// Moves a slider once and answers with the milliseconds until its figures are drawn.
-const MEASURE: &str = "const [field, step, done] = arguments; const root = document.documentElement; \
-    const slider = document.querySelector(field + ' input[type=range]'); \
-    const start = performance.now(); \
-    const before = root.dataset.drawnGeneration; \
-    new MutationObserver((_, observer) => { \
-        if (root.dataset.drawnGeneration !== before) { observer.disconnect(); done(performance.now() - start); } \
-    }).observe(root, { attributes: true, attributeFilter: ['data-drawn-generation'] }); \
-    slider.value = Number(slider.value) + step; slider.dispatchEvent(new Event('input', { bubbles: true }))";
-/// All schemes' slider.
-const FRICTION: &str = "#setup [data-pointer=\"/plant/friction/width_rad_s\"]";
 
 /// Counts drawings from now on.
 const COUNT: &str = "for (const card of document.querySelectorAll('figure-card')) { \
@@ -50,12 +41,12 @@ pub fn a_slider_move_is_drawn_in_time(bench: &Bench) -> Result<()> {
     let one_ms = measure(&page, &one)?;
     for (what, times_ms) in [("all three schemes", &all_ms), ("one scheme", &one_ms)] {
         let list: Vec<_> = times_ms.iter().map(|time| format!("{time:.0}")).collect();
-        println!("slider to canvas, {what}: median {:.0} ms of {}", median(times_ms), list.join(" "));
+        println!("slider to canvas, {what}: median {:.0} ms of {}", median(times_ms.clone()), list.join(" "));
     }
     ensure!(
-        !machine::soak() || median(&all_ms) < BOUND_MS,
+        !machine::soak() || median(all_ms.clone()) < BOUND_MS,
         "the median is {:.0} ms; promised are {BOUND_MS}",
-        median(&all_ms)
+        median(all_ms.clone())
     );
     Ok(())
 }
@@ -69,7 +60,7 @@ pub fn a_move_is_drawn_once(bench: &Bench) -> Result<()> {
     page.run(COUNT, &[])?;
     let mut in_time = 0;
     for n in 0..12 {
-        page.run_async(MEASURE, &[json!(FRICTION), json!(if n % 2 == 0 { 4 } else { -4 })])?;
+        page.run_async(MOVE, &[json!(FRICTION), json!(if n % 2 == 0 { 4 } else { -4 })])?;
         page.ready()?;
         page.wait_for("return document.querySelector('arm-view').drawings > window.armsBefore")?;
         // What is drawn too often is drawn soon after.
@@ -87,22 +78,18 @@ pub fn a_move_is_drawn_once(bench: &Bench) -> Result<()> {
     Ok(())
 }
 
-/// Drags without a rest and answers with how often the first figure and the arms were drawn by the last move.
-const DRAG: &str = "const [moves, field, done] = arguments; let n = 0; \
-    const slider = document.querySelector(field + ' input[type=range]'); \
-    const card = [...document.querySelectorAll('figure-card')].find(({ inView }) => inView); \
-    const timer = setInterval(() => { slider.value = 40 * Math.sin(n / 10); \
-        slider.dispatchEvent(new Event('input', { bubbles: true })); \
-        if (++n === moves) { clearInterval(timer); \
-            done([card.drawings, document.querySelector('arm-view').drawings - window.armsBefore]); } }, 16)";
+/// How often figures and arms were drawn while a field was dragged without a rest.
+fn drawn_while_dragged(page: &Page<'_>, field: &str) -> Result<[u64; 2]> {
+    let drawn: [u64; 2] = serde_json::from_value(page.run_async(DRAG, &[json!(field), json!(DRAGGED)])?[0].take())?;
+    println!("{DRAGGED} moves without a rest: figures drawn {} times, arms {} times", drawn[0], drawn[1]);
+    Ok(drawn)
+}
 
 pub fn a_finger_that_never_rests_sees_results(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
     std::thread::sleep(CALM);
-    for (moves, field) in [(120, FRICTION.to_owned()), (120, gain_field(Scheme::Proposed, "/scheme/gains/k_v/0"))] {
-        page.run(COUNT, &[])?;
-        let drawn: [u64; 2] = serde_json::from_value(page.run_async(DRAG, &[json!(moves), json!(field)])?)?;
-        println!("{moves} moves without a rest: figures drawn {} times, arms {} times", drawn[0], drawn[1]);
+    for field in [FRICTION, &gain_field(Scheme::Proposed, "/scheme/gains/k_v/0")] {
+        let drawn = drawn_while_dragged(&page, field)?;
         ensure!(
             drawn.iter().all(|times| *times >= 3),
             "while {field} is dragged, figures and arms are drawn {drawn:?} times"
@@ -117,9 +104,8 @@ pub fn where_a_processor_draws_arms_wait_for_rest(bench: &Bench) -> Result<()> {
     // The fine drawing of the first results.
     page.wait_for("return document.querySelector('arm-view').drawings > 0")?;
     std::thread::sleep(Duration::from_secs(2));
-    page.run(COUNT, &[])?;
-    let [figures, arms]: [u64; 2] = serde_json::from_value(page.run_async(DRAG, &[json!(120), json!(FRICTION)])?)?;
-    println!("120 moves without a rest: figures drawn {figures} times, arms {arms} times");
+    page.run("window.armsBefore = document.querySelector('arm-view').drawings", &[])?;
+    let [figures, arms] = drawn_while_dragged(&page, FRICTION)?;
     ensure!(figures >= 3 && arms <= 1, "figures drawn {figures} times, arms {arms} times");
     page.ready()?;
     page.wait_for("return document.querySelector('arm-view').drawings > window.armsBefore")
@@ -130,15 +116,11 @@ fn measure(page: &Page<'_>, field: &str) -> Result<Vec<f64>> {
     let mut times_ms = Vec::new();
     for n in 0..=SAMPLES {
         let step = if n % 2 == 0 { 4 } else { -4 };
-        let time = page.run_async(MEASURE, &[json!(field), json!(step)])?.as_f64().context("no time")?;
+        let time = page.run_async(MOVE, &[json!(field), json!(step)])?[0].as_f64().context("no time")?;
         if n > 0 {
             times_ms.push(time);
         }
     }
     times_ms.sort_by(f64::total_cmp);
     Ok(times_ms)
-}
-
-fn median(sorted: &[f64]) -> f64 {
-    sorted[sorted.len() / 2]
 }
