@@ -32,6 +32,8 @@ pub trait Pack<T>: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
     fn load(numbers: &[T]) -> Self;
     /// Writes the first [`Pack::WIDTH`] of `numbers`.
     fn store(self, numbers: &mut [T]);
+    /// The numbers at the first [`Pack::WIDTH`] places of `at`; zero where there is no place.
+    fn gather(numbers: &[T], at: [Option<usize>; MOST_PACKED]) -> Self;
 }
 
 /// A number alone.
@@ -48,6 +50,10 @@ impl<T: Scalar> Pack<T> for T {
     #[inline(always)]
     fn store(self, numbers: &mut [T]) {
         numbers[0] = self;
+    }
+    #[inline(always)]
+    fn gather(numbers: &[T], at: [Option<usize>; MOST_PACKED]) -> Self {
+        at[0].map_or(T::zero(), |n| numbers[n])
     }
 }
 
@@ -68,7 +74,7 @@ pub trait Scalar:
     /// Result of a comparison: one truth value per lane.
     type Mask: Copy;
     /// How neighbours of one run are worked on together; the number alone wherever its lanes are runs.
-    type Pack: Pack<Self>;
+    type Pack: Pack<Self> + Scalar;
     /// Numbers side by side.
     const LANES: usize;
     /// Whether this is a number without vector instructions of its own, so that the compiler has to find them.

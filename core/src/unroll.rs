@@ -4,12 +4,13 @@
 //! drops bounds checks, index loads and whole terms that are structurally zero; a loop over the list keeps them all. A
 //! macro, because a closure called a hundred times is not inlined.
 
-/// `unrolled!(len, n => body)` runs `body` with `n` = 0, 1, ..., `len − 1`; the first 128 copies are written out.
+/// `unrolled!(len, n => body)` runs `body` with `n` = 0, 1, ..., `len − 1`; the first 192 copies are written out.
 macro_rules! unrolled {
     ($len:expr, $n:ident => $body:block) => {
         unrolled!(@64 0usize, $len, $n, $body);
         unrolled!(@64 64usize, $len, $n, $body);
-        for $n in 128..$len $body
+        unrolled!(@64 128usize, $len, $n, $body);
+        for $n in 192..$len $body
     };
     (@64 $at:expr, $len:expr, $n:ident, $body:block) => {
         unrolled!(@16 $at, $len, $n, $body);

@@ -5,7 +5,8 @@
 
 use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, Mixing, PredictionMemory, Projection};
 use crate::robots::Robot;
-use crate::scalar::Scalar;
+use crate::scalar::{Pack, Scalar};
+use crate::unroll::unrolled;
 use nalgebra::SVector;
 
 /// How θ̂ follows the gradient and the memory.
@@ -52,23 +53,42 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
         rate: &mut [T],
     ) {
         let (w, theta_hat, rate) = (&memory[..P], &theta_hat[..P], &mut rate[..P]);
-        match self {
-            Self::Additive { gain, memory_gain } => {
-                for k in 0..P {
-                    rate[k] = -(*memory_gain * w[k]) - gain[k] * gradient[k];
-                }
-            }
-            Self::Projected { gain, memory_gain, projection } => {
-                for k in 0..P {
-                    let drive = *memory_gain * w[k] + gradient[k];
-                    rate[k] = -gain[k] * (drive + projection.correction(k, theta_hat[k], drive));
-                }
-            }
-            Self::Mixed(mixing) => {
-                mixing.theta_hat_rate(w, |i, j| PredictionMemory::<R, T, N, P>::correlation(memory, i, j), rate);
-            }
+        if let Self::Mixed(mixing) = self {
+            mixing.theta_hat_rate(w, |i, j| PredictionMemory::<R, T, N, P>::correlation(memory, i, j), rate);
+            return;
+        }
+        let width = <T::Pack as Pack<T>>::WIDTH;
+        unrolled!(P / width, n => {
+            let from = n * width;
+            self.rate_from::<T::Pack>(from, w, gradient, theta_hat).store(&mut rate[from..]);
+        });
+        for k in P / width * width..P {
+            rate[k] = self.rate_from::<T>(k, w, gradient, theta_hat);
         }
     }
+
+    /// `θ̂'` of the parameters from the `k`th on that a pack `S` holds; not for [`Self::Mixed`].
+    #[inline(always)]
+    fn rate_from<S: Scalar + Pack<T>>(&self, k: usize, w: &[T], gradient: &SVector<T, P>, theta_hat: &[T]) -> S {
+        let (repeat, load) = (<S as Pack<T>>::repeat, <S as Pack<T>>::load);
+        let (w, gradient) = (load(&w[k..]), load(&gradient.as_slice()[k..]));
+        match self {
+            Self::Additive { gain, memory_gain } => {
+                -(repeat(*memory_gain) * w) - load(&gain.as_slice()[k..]) * gradient
+            }
+            Self::Projected { gain, memory_gain, projection } => {
+                let drive = repeat(*memory_gain) * w + gradient;
+                let correction = projection.correction(k, load(&theta_hat[k..]), drive);
+                -load(&gain.as_slice()[k..]) * (drive + correction)
+            }
+            Self::Mixed(_) => <S as num_traits::Zero>::zero(),
+        }
+    }
+}
+
+impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptation<R, T, N, P> {
+    /// Where the memory's states begin: at a multiple of a vector's length.
+    const MEMORY: usize = FilteredRegressor::<R, T, N, P>::STATES.next_multiple_of(<T::Pack as Pack<T>>::WIDTH);
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R, T, N, P>
@@ -77,7 +97,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
     const FILTERS: bool = true;
 
     fn states(&self) -> usize {
-        FilteredRegressor::<R, T, N, P>::STATES + PredictionMemory::<R, T, N, P>::STATES
+        Self::MEMORY + PredictionMemory::<R, T, N, P>::STATES
     }
 
     fn plain_states(&self) -> usize {
@@ -87,17 +107,17 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
     fn write_plain(&self, states: &[T], plain: &mut [T]) {
         let filter = FilteredRegressor::<R, T, N, P>::STATES;
         plain[..filter].copy_from_slice(&states[..filter]);
-        PredictionMemory::<R, T, N, P>::write_plain(&states[filter..], &mut plain[filter..]);
+        PredictionMemory::<R, T, N, P>::write_plain(&states[Self::MEMORY..], &mut plain[filter..]);
     }
 
     fn read_plain(&self, plain: &[T], states: &mut [T]) {
         let filter = FilteredRegressor::<R, T, N, P>::STATES;
         states[..filter].copy_from_slice(&plain[..filter]);
-        PredictionMemory::<R, T, N, P>::read_plain(&plain[filter..], &mut states[filter..]);
+        PredictionMemory::<R, T, N, P>::read_plain(&plain[filter..], &mut states[Self::MEMORY..]);
     }
 
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
-        let (filter, memory) = states.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
+        let (filter, memory) = states.split_at_mut(Self::MEMORY);
         self.filter.initialize(geometry, velocity, filter);
         memory.fill(T::zero());
     }
@@ -139,8 +159,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        let (filter, memory) = states.split_at(FilteredRegressor::<R, T, N, P>::STATES);
-        let (filter_rate, memory_rate) = states_rate.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
+        let (filter, memory) = states.split_at(Self::MEMORY);
+        let (filter_rate, memory_rate) = states_rate.split_at_mut(Self::MEMORY);
         let (filtered, filtered_torque) =
             self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
         self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);

@@ -106,28 +106,55 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         let mut rows = [[repeat(T::zero()); P]; N];
         let mut sum = [repeat(T::zero()); P];
         unrolled!(Self::LAYOUT.groups, g => {
+            let mut is_first = true;
             for row in 0..N {
                 if Self::is_live(row, g) {
                     rows[row][g] = Self::neighbours(g, |k| if R::LIVE[row][k] { filtered[(row, k)] } else { T::zero() });
-                    sum[g] = sum[g] + rows[row][g] * repeat(prediction_error[row]);
+                    let term = rows[row][g] * repeat(prediction_error[row]);
+                    sum[g] = if is_first { term } else { sum[g] + term };
+                    is_first = false;
                 }
             }
             sum[g] = gain * sum[g] - forgetting * T::Pack::load(&w[g * Self::WIDTH..]);
         });
-        unrolled!(Self::LAYOUT.whole_len, n => {
-            let (j, g) = Self::LAYOUT.whole[n];
-            sum[g] = sum[g] + Self::row(z, j, g) * repeat(theta_hat_rate[j]);
-        });
+        Self::add_rows(z, theta_hat_rate, &mut sum);
         unrolled!(Self::LAYOUT.groups, g => {
             sum[g].store(&mut w_rate[g * Self::WIDTH..]);
         });
+        Self::write_kept(filtered, &rows, [gain, forgetting], z, z_rate);
+    }
+
+    /// `sum += Z θ̂'`.
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    fn add_rows(z: &[T], theta_hat_rate: &[T], sum: &mut [T::Pack; P]) {
+        let (z, theta_hat_rate) = (&z[..Self::LAYOUT.kept_len * Self::WIDTH], &theta_hat_rate[..P]);
+        unrolled!(Self::LAYOUT.whole_len, n => {
+            let (j, g) = Self::LAYOUT.whole[n];
+            let kept = Self::LAYOUT.kept_as[j][g];
+            let of_z = if kept == NONE { Self::gathered(z, j, g) } else { T::Pack::load(&z[kept * Self::WIDTH..]) };
+            sum[g] = sum[g] + of_z * <T::Pack as Pack<T>>::repeat(theta_hat_rate[j]);
+        });
+    }
+
+    /// `Z' = γ Yfᵀ Yf − λ Z` of the kept vectors; `rows` is `Yf` in packs.
+    #[inline(always)]
+    fn write_kept(
+        filtered: &Regressor<T, N, P>,
+        rows: &[[T::Pack; P]; N],
+        [gain, forgetting]: [T::Pack; 2],
+        z: &[T],
+        z_rate: &mut [T],
+    ) {
+        let len = Self::LAYOUT.kept_len * Self::WIDTH;
+        let (z, z_rate) = (&z[..len], &mut z_rate[..len]);
         unrolled!(Self::LAYOUT.kept_len, n => {
             let (i, g) = Self::LAYOUT.kept[n];
-            let mut product = repeat(T::zero());
+            let mut product = <T::Pack as Pack<T>>::repeat(T::zero());
             let mut is_first = true;
             for row in 0..N {
                 if R::LIVE[row][i] && Self::is_live(row, g) {
-                    let term = repeat(filtered[(row, i)]) * rows[row][g];
+                    let term = <T::Pack as Pack<T>>::repeat(filtered[(row, i)]) * rows[row][g];
                     product = if is_first { term } else { product + term };
                     is_first = false;
                 }
@@ -159,16 +186,17 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         T::Pack::load(&numbers)
     }
 
-    /// Row `j` of Z in the columns of group `g`, given Z's states.
+    /// Row `j` of Z in the columns of group `g`, from what lies across; given Z's states.
     #[inline(always)]
-    fn row(z: &[T], j: usize, g: usize) -> T::Pack {
-        let first = Self::LAYOUT.at[j][g * Self::WIDTH];
-        let mut is_kept = first != NONE && first % Self::WIDTH == 0;
-        for lane in 1..Self::WIDTH {
+    fn gathered(z: &[T], j: usize, g: usize) -> T::Pack {
+        let mut at = [None; MOST_PACKED];
+        for lane in 0..Self::WIDTH {
             let column = g * Self::WIDTH + lane;
-            is_kept &= column >= P || Self::LAYOUT.at[j][column] == first + lane;
+            if column < P && Self::LAYOUT.at[j][column] != NONE {
+                at[lane] = Some(Self::LAYOUT.at[j][column]);
+            }
         }
-        if is_kept { T::Pack::load(&z[first..]) } else { Self::neighbours(g, |i| Self::entry(z, j, i)) }
+        T::Pack::gather(z, at)
     }
 
     /// Entry (i, j) of Z.

@@ -3,8 +3,9 @@
 //! `f_b,i = ±ρ δ_i |β w_i + (Yᵀ s)_i|`, minus below the lower bound and plus above the upper one. δ rises from 0 at a
 //! bound to 1 at the end of its margin and stays at 1 beyond, where the paper's eq. (20) leaves it undefined.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Pack, Scalar};
 use nalgebra::SVector;
+use num_traits::Zero;
 
 /// Bounds and strength of the projection.
 #[derive(Debug, Clone, Copy)]
@@ -49,26 +50,28 @@ impl<T: Scalar, const P: usize> Projection<T, P> {
         bounds
     }
 
-    /// `f_b,i` for estimate θ̂_i that is driven by `drive_i = β w_i + (Yᵀ s)_i`. Source: paper eq. (19), (20).
+    /// `f_b` for the estimates θ̂ from the `i`th on that a pack `S` holds, driven by `drive = β w + Yᵀ s`.
+    /// Source: paper eq. (19), (20).
     #[inline(always)]
-    pub fn correction(&self, i: usize, theta_hat: T, drive: T) -> T {
-        let below = fraction(self.lower[i] - theta_hat, self.lower_margin[i]);
-        let above = fraction(theta_hat - self.upper[i], self.upper_margin[i]);
-        (above - below) * self.strength * drive.abs()
+    pub fn correction<S: Scalar + Pack<T>>(&self, i: usize, theta_hat: S, drive: S) -> S {
+        let from = |bounds: &SVector<T, P>| <S as Pack<T>>::load(&bounds.as_slice()[i..]);
+        let (below, above) = (from(&self.lower) - theta_hat, theta_hat - from(&self.upper));
+        // Where estimates are nearly always, it takes no division.
+        let zero = <S as Zero>::zero();
+        if !S::any(zero.less_than(below)) && !S::any(zero.less_than(above)) {
+            return zero;
+        }
+        let share = fraction(above, from(&self.upper_margin)) - fraction(below, from(&self.lower_margin));
+        share * <S as Pack<T>>::repeat(self.strength) * drive.abs()
     }
 }
 
-/// δ: how deep into a margin, as a share of its width between 0 and 1. Outside, where estimates are nearly always, it takes
-/// no division.
+/// δ: how deep into a margin, as a share of its width between 0 and 1.
 #[inline(always)]
 fn fraction<T: Scalar>(depth: T, width: T) -> T {
     let (zero, one) = (T::zero(), T::one());
-    let inside = zero.less_than(depth);
-    if !T::any(inside) {
-        return zero;
-    }
     let share = depth / width;
-    T::select(inside, T::select(share.less_than(one), share, one), zero)
+    T::select(zero.less_than(depth), T::select(share.less_than(one), share, one), zero)
 }
 
 #[cfg(test)]
@@ -94,8 +97,8 @@ mod tests {
         assert_eq!(p.lower_margin, SVector::from([1e-4, 1.0, 0.5]));
         assert_eq!(p.upper_margin, SVector::from([1.0, 1e-4, 0.5]));
         for (k, inside) in [(0, 3.0), (1, -3.0), (2, 3.0), (2, -3.0)] {
-            assert_eq!(p.correction(k, inside, 1.0), 0.0);
-            assert_eq!((p.correction(k, 99.0, 1.0), p.correction(k, -99.0, 1.0)), (2.5, -2.5));
+            assert_eq!(p.correction::<f64>(k, inside, 1.0), 0.0);
+            assert_eq!((p.correction::<f64>(k, 99.0, 1.0), p.correction::<f64>(k, -99.0, 1.0)), (2.5, -2.5));
         }
     }
 
@@ -111,7 +114,7 @@ mod tests {
             (10.05, -2.0, 2.5),
             (99.0, -2.0, 5.0),
         ] {
-            let correction = p.correction(0, theta, drive);
+            let correction = p.correction::<f64>(0, theta, drive);
             assert!((correction - expected).abs() < 1e-9, "θ̂ = {theta}: {correction} instead of {expected}");
         }
     }

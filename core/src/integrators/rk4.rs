@@ -1,25 +1,31 @@
 //! The classical fixed-step Runge-Kutta method of order 4.
 
+use super::Aligned;
 use crate::scalar::{Kernel, Scalar};
 
 /// Work space for a state of a given length; no step allocates.
 ///
 /// Four arrays are all that a step touches, the state among them: several runs side by side should fit the first cache.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Rk4<T> {
     /// k1, then k1 + 2 k2, then k1 + 2 k2 + 2 k3.
-    sum: Vec<T>,
+    sum: Aligned<T>,
     /// The last slope: k2, k3, k4.
-    slope: Vec<T>,
+    slope: Aligned<T>,
     /// The state at a stage; after a step, what the state was before it.
-    stage: Vec<T>,
+    stage: Aligned<T>,
 }
 
 impl<T: Scalar> Rk4<T> {
     /// Work space for `len` states.
     pub fn new(len: usize) -> Self {
-        let zeros = || vec![T::zero(); len];
+        let zeros = || Aligned::repeat(T::zero(), len);
         Self { sum: zeros(), slope: zeros(), stage: zeros() }
+    }
+
+    /// The instant between a step's ends at which it evaluates twice.
+    pub fn middle_s(start_s: f64, end_s: f64) -> f64 {
+        start_s + 0.5 * (end_s - start_s)
     }
 
     /// Where a caller who knows the first slope of the next step may put it; see [`Self::step_from_slope`].
@@ -32,9 +38,14 @@ impl<T: Scalar> Rk4<T> {
         &self.stage
     }
 
+    /// The same, to be written where something happens between steps.
+    pub fn before_mut(&mut self) -> &mut [T] {
+        &mut self.stage
+    }
+
     /// Advances `x` from `start_s` to `end_s`: `x + h/6 (k1 + 2 k2 + 2 k3 + k4)`; `f(t, x, rate)` writes the derivative.
     /// The end is given as a time, so that consecutive steps meet in the same bits. Gives zero where every state is finite.
-    pub fn step(&mut self, start_s: f64, end_s: f64, x: &mut Vec<T>, mut f: impl FnMut(f64, &[T], &mut [T])) -> T {
+    pub fn step(&mut self, start_s: f64, end_s: f64, x: &mut Aligned<T>, mut f: impl FnMut(f64, &[T], &mut [T])) -> T {
         f(start_s, x, &mut self.sum);
         self.step_from_slope(start_s, end_s, x, f)
     }
@@ -44,11 +55,10 @@ impl<T: Scalar> Rk4<T> {
         &mut self,
         start_s: f64,
         end_s: f64,
-        x: &mut Vec<T>,
+        x: &mut Aligned<T>,
         mut f: impl FnMut(f64, &[T], &mut [T]),
     ) -> T {
-        let h = end_s - start_s;
-        let middle_s = start_s + 0.5 * h;
+        let (h, middle_s) = (end_s - start_s, Self::middle_s(start_s, end_s));
         let Self { sum, slope, stage } = self;
         T::compiled(Stage { out: stage, x, h: 0.5 * h, slope: sum });
         f(middle_s, stage, slope);
@@ -180,11 +190,11 @@ mod tests {
     /// Error at t = 1 of x' = x cos t, solution exp(sin t).
     fn error(steps: u32) -> f64 {
         let h = 1.0 / f64::from(steps);
-        let mut x = vec![1.0];
+        let mut x = Aligned::repeat(1.0, 1);
         let mut rk4 = Rk4::new(1);
         for n in 0..steps {
             let (start, end) = (f64::from(n) * h, f64::from(n + 1) * h);
-            let before = x.clone();
+            let before = x.to_vec();
             assert_eq!(rk4.step(start, end, &mut x, |t, x, rate| rate[0] = x[0] * t.cos()), 0.0);
             assert_eq!(rk4.before(), before);
         }
@@ -201,7 +211,7 @@ mod tests {
     fn tells_what_is_not_finite() {
         for bad in [f64::NAN, f64::INFINITY] {
             for n in 0..11 {
-                let mut x = vec![1.0; 11];
+                let mut x = Aligned::repeat(1.0, 11);
                 let finite = Rk4::new(11).step(0.0, 1.0, &mut x, |_, _, rate| {
                     rate.fill(0.0);
                     rate[n] = bad;

@@ -10,7 +10,7 @@ use super::F64x2 as Vector;
 #[cfg(target_arch = "x86_64")]
 use super::F64x4 as Vector;
 use super::{impl_scalar, widths};
-use crate::scalar::{Kernel, Pack, Scalar};
+use crate::scalar::{Kernel, MOST_PACKED, Pack, Scalar};
 
 /// One number.
 #[derive(Clone, Copy)]
@@ -88,6 +88,10 @@ impl Pack<Neighbour> for Vector {
     fn store(self, numbers: &mut [Neighbour]) {
         numbers[..Self::LANES].copy_from_slice(Neighbour::of(&self.to_array()));
     }
+    #[inline(always)]
+    fn gather(numbers: &[Neighbour], at: [Option<usize>; MOST_PACKED]) -> Self {
+        Self::gather(Neighbour::plain(numbers), at)
+    }
 }
 
 impl Scalar for Neighbour {
@@ -131,8 +135,12 @@ impl Scalar for Neighbour {
         for together in together {
             <Vector as Pack<Self>>::load(together).tanh().store(together);
         }
-        for x in rest {
-            *x = x.tanh();
+        if !rest.is_empty() {
+            // A vector that is not full costs as much as one number.
+            let mut filled = [Self(0.0); Vector::LANES];
+            filled[..rest.len()].copy_from_slice(rest);
+            <Vector as Pack<Self>>::load(&filled).tanh().store(&mut filled);
+            rest.copy_from_slice(&filled[..rest.len()]);
         }
     }
     #[inline(always)]

@@ -2,7 +2,7 @@
 #![allow(unsafe_code, reason = "two numbers in memory are read as one vector")]
 
 use super::impl_scalar;
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::{Kernel, MOST_PACKED, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "twenty intrinsics")]
 use std::arch::wasm32::*;
@@ -25,6 +25,28 @@ impl F64x2 {
     pub(super) fn load(numbers: &[f64; 2]) -> Self {
         // SAFETY: as many numbers as are read; they may begin anywhere.
         Self(unsafe { v128_load(numbers.as_ptr().cast()) })
+    }
+    /// The numbers at two places; zero where there is none. What is loaded whole is often there already: a pair put together
+    /// from two others is one instruction, from two numbers in memory it is four.
+    #[inline(always)]
+    pub(super) fn gather(numbers: &[f64], at: [Option<usize>; MOST_PACKED]) -> Self {
+        let pair = |at: Option<usize>| {
+            at.map_or(f64x2_splat(0.0), |n| {
+                let (pairs, rest) = numbers.as_chunks::<2>();
+                match pairs.get(n / 2) {
+                    Some(pair) => Self::load(pair).0,
+                    None => f64x2_splat(rest[0]),
+                }
+            })
+        };
+        let is_second = |at: Option<usize>| at.is_some_and(|n| n % 2 == 1);
+        let (a, b) = (pair(at[0]), pair(at[1]));
+        Self(match (is_second(at[0]), is_second(at[1])) {
+            (false, false) => i64x2_shuffle::<0, 2>(a, b),
+            (false, true) => i64x2_shuffle::<0, 3>(a, b),
+            (true, false) => i64x2_shuffle::<1, 2>(a, b),
+            (true, true) => i64x2_shuffle::<1, 3>(a, b),
+        })
     }
     #[inline(always)]
     pub(super) fn to_array(self) -> [f64; 2] {

@@ -6,7 +6,7 @@
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
 use super::impl_scalar;
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::{Kernel, MOST_PACKED, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 #[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
 use std::arch::x86_64::*;
@@ -50,6 +50,11 @@ macro_rules! lanes {
             #[allow(dead_code, reason = "one type of lanes is that of neighbours")]
             pub(super) fn load(numbers: &[f64; $width]) -> Self {
                 Self::from_array(*numbers)
+            }
+            #[inline(always)]
+            #[allow(dead_code, reason = "as above")]
+            pub(super) fn gather(numbers: &[f64], at: [Option<usize>; MOST_PACKED]) -> Self {
+                Self::from_array(std::array::from_fn(|lane| at[lane].map_or(0.0, |n| numbers[n])))
             }
             #[inline(always)]
             pub(super) fn to_array(self) -> [f64; $width] {

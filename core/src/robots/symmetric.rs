@@ -22,7 +22,9 @@ pub struct SymmetricLayout<const P: usize> {
     pub kept: [(usize, usize); MOST],
     /// Number of kept vectors.
     pub kept_len: usize,
-    /// All `(row, group)` of the whole matrix that are live anywhere, by group, then by row.
+    /// Which of the kept vectors `(row, group)` is; [`NONE`] where it is not kept.
+    pub kept_as: [[usize; P]; P],
+    /// All `(row, group)` of the whole matrix that are live anywhere, by row, then by group.
     pub whole: [(usize, usize); MOST],
     /// How many these are.
     pub whole_len: usize,
@@ -38,6 +40,7 @@ impl<const P: usize> SymmetricLayout<P> {
             groups: P.div_ceil(width),
             kept: [(NONE, NONE); MOST],
             kept_len: 0,
+            kept_as: [[NONE; P]; P],
             whole: [(NONE, NONE); MOST],
             whole_len: 0,
             at: [[NONE; P]; P],
@@ -80,6 +83,7 @@ impl<const P: usize> SymmetricLayout<P> {
         while row < (rows + 1) * self.width {
             if self.meets(live, row, group) {
                 self.kept[self.kept_len] = (row, group);
+                self.kept_as[row][group] = self.kept_len;
                 self.kept_len += 1;
             }
             row += 1;
@@ -116,7 +120,7 @@ impl<const P: usize> SymmetricLayout<P> {
     const fn list_whole<const N: usize>(&mut self, live: &[[bool; P]; N]) {
         let mut n = 0;
         while n < self.groups * P {
-            let (group, row) = (n / P, n % P);
+            let (row, group) = (n / self.groups, n % self.groups);
             if self.meets(live, row, group) {
                 self.whole[self.whole_len] = (row, group);
                 self.whole_len += 1;
@@ -164,11 +168,12 @@ mod tests {
             width in 1..=4_usize,
         ) {
             let layout = SymmetricLayout::<P>::new(&live, width);
-            let is_live = |&(group, row): &(usize, usize)| {
+            let is_live = |&(row, group): &(usize, usize)| {
                 (group * width..P.min((group + 1) * width)).any(|column| share_row(&live, row, column))
             };
-            let expected: Vec<_> = (0..P.div_ceil(width)).flat_map(|group| (0..P).map(move |row| (group, row))).collect();
-            let expected: Vec<_> = expected.into_iter().filter(is_live).map(|(group, row)| (row, group)).collect();
+            let groups = P.div_ceil(width);
+            let expected: Vec<_> = (0..P).flat_map(|row| (0..groups).map(move |group| (row, group))).collect();
+            let expected: Vec<_> = expected.into_iter().filter(is_live).collect();
             prop_assert_eq!(&layout.whole[..layout.whole_len], expected);
         }
 

@@ -10,7 +10,7 @@ use crate::dynamics::Plant;
 use crate::recording::write_row;
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::{Kernel, Pack, Scalar};
 use crate::trajectories::{Desired, Remembered};
 use crate::velocity::{VelocityEstimate, VelocitySource};
 use nalgebra::SVector;
@@ -59,6 +59,9 @@ struct Evaluation<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
 struct Layout {
     velocity_source: usize,
     theta_hat: usize,
+    /// End of θ̂.
+    theta_end: usize,
+    /// A multiple of a vector's length, so that the law's vectors never lie across two cache lines; what is skipped stays zero.
     adaptation: usize,
     len: usize,
 }
@@ -74,8 +77,9 @@ where
     fn layout(&self) -> Layout {
         let velocity_source = 2 * N;
         let theta_hat = velocity_source + self.velocity_source.states();
-        let adaptation = theta_hat + P;
-        Layout { velocity_source, theta_hat, adaptation, len: adaptation + self.adaptation.states() }
+        let theta_end = theta_hat + P;
+        let adaptation = theta_end.next_multiple_of(<T::Pack as Pack<T>>::WIDTH);
+        Layout { velocity_source, theta_hat, theta_end, adaptation, len: adaptation + self.adaptation.states() }
     }
 
     #[inline(always)]
@@ -112,7 +116,7 @@ where
             &sliding.reference_acceleration,
             &sign_reference,
         );
-        let model = model_torque::<R, T, N, P>(&regressor, &x[layout.theta_hat..layout.adaptation]);
+        let model = model_torque::<R, T, N, P>(&regressor, &x[layout.theta_hat..layout.theta_end]);
         let torque = self.feedback.torque(&sliding, &model);
         Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, torque }
     }
@@ -133,9 +137,10 @@ where
             sign_velocity: &now.sign_estimate,
             torque: &now.torque,
             gradient: &gradient::<R, T, N, P>(&now.regressor, &now.sliding.sliding_variable),
-            theta_hat: &x[layout.theta_hat..layout.adaptation],
+            theta_hat: &x[layout.theta_hat..layout.theta_end],
         };
-        let (theta_hat_rate, law_rate) = rate[layout.theta_hat..].split_at_mut(P);
+        let (before_law, law_rate) = rate.split_at_mut(layout.adaptation);
+        let theta_hat_rate = &mut before_law[layout.theta_hat..layout.theta_end];
         self.adaptation.derivative(&input, &x[layout.adaptation..], theta_hat_rate, law_rate);
     }
 
@@ -150,7 +155,7 @@ where
             now.torque,
             SVector::<T, N>::from_column_slice(&x[..N]),
         ];
-        write_row(row, &blocks, &x[layout.theta_hat..layout.adaptation], &now.sliding.sliding_variable);
+        write_row(row, &blocks, &x[layout.theta_hat..layout.theta_end], &now.sliding.sliding_variable);
     }
 }
 
@@ -166,37 +171,41 @@ where
     }
 
     fn plain_len(&self) -> usize {
-        self.layout().adaptation + self.adaptation.plain_states()
+        self.layout().theta_end + self.adaptation.plain_states()
     }
 
     fn write_plain(&self, x: &[T], plain: &mut [T]) {
-        let law = self.layout().adaptation;
-        plain[..law].copy_from_slice(&x[..law]);
-        self.adaptation.write_plain(&x[law..], &mut plain[law..]);
+        let Layout { theta_end, adaptation, .. } = self.layout();
+        plain[..theta_end].copy_from_slice(&x[..theta_end]);
+        self.adaptation.write_plain(&x[adaptation..], &mut plain[theta_end..]);
     }
 
     fn read_plain(&self, plain: &[T], x: &mut [T]) {
-        let law = self.layout().adaptation;
-        x[..law].copy_from_slice(&plain[..law]);
-        self.adaptation.read_plain(&plain[law..], &mut x[law..]);
+        let Layout { theta_end, adaptation, .. } = self.layout();
+        x[..theta_end].copy_from_slice(&plain[..theta_end]);
+        self.adaptation.read_plain(&plain[theta_end..], &mut x[adaptation..]);
     }
 
     fn initialize(&self, x: &mut [T]) {
         let layout = self.layout();
         let desired = self.trajectory.at(0.0);
-        let (motion, rest) = x.split_at_mut(2 * N);
+        let (before_law, law) = x.split_at_mut(layout.adaptation);
+        let (motion, rest) = before_law.split_at_mut(2 * N);
         motion[..N].copy_from_slice(desired.position.as_slice());
         match self.initial_velocity {
             InitialVelocity::Desired => motion[N..].copy_from_slice(desired.velocity.as_slice()),
             InitialVelocity::Rest => motion[N..].fill(T::zero()),
         }
         let velocity = SVector::<T, N>::from_column_slice(&motion[N..]);
-        let (source, rest) = rest.split_at_mut(layout.theta_hat - layout.velocity_source);
+        let (source, theta_hat) = rest.split_at_mut(layout.theta_hat - layout.velocity_source);
         self.velocity_source.initialize(&desired.position, &desired, source);
         let estimate = self.velocity_source.estimate(&desired.position, &velocity, &desired, source);
-        let (theta_hat, law) = rest.split_at_mut(P);
         theta_hat.fill(T::zero());
         self.adaptation.initialize(&R::geometry(&desired.position), &estimate.velocity, law);
+    }
+
+    fn expect(&self, times_s: [f64; 2]) {
+        T::compiled(Expect { trajectory: &self.trajectory, times_s });
     }
 
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
@@ -217,7 +226,22 @@ where
 
     fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T] {
         let layout = self.layout();
-        &x[layout.theta_hat..layout.adaptation]
+        &x[layout.theta_hat..layout.theta_end]
+    }
+}
+
+/// [`Remembered::expect`], compiled for each kind of scalar.
+struct Expect<'a, T: Scalar, const N: usize> {
+    trajectory: &'a Remembered<T, N>,
+    times_s: [f64; 2],
+}
+
+impl<T: Scalar, const N: usize> Kernel for Expect<'_, T, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.trajectory.expect(self.times_s);
     }
 }
 

@@ -6,7 +6,7 @@
 use super::recorder::Recorder;
 use super::run::exceeded_joint;
 use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, TRACKING_ERROR_LIMIT_RAD};
-use crate::integrators::Rk4;
+use crate::integrators::{Aligned, Rk4};
 use crate::recording::Recording;
 use crate::scalar::{Kernel, Scalar};
 
@@ -29,7 +29,7 @@ pub(crate) struct Lanes<T: Scalar> {
     rk4: Rk4<T>,
     /// Steps from one sample to the next.
     every: u64,
-    state: Vec<T>,
+    state: Aligned<T>,
     row: Vec<T>,
     /// The row, lane by lane.
     rows: Vec<f64>,
@@ -62,7 +62,7 @@ impl<T: Scalar> Lanes<T> {
         let len = system.len();
         let width = settings.columns.width() - 1;
         let zeros = |len| vec![T::zero(); len];
-        let mut state = zeros(len);
+        let mut state = Aligned::repeat(T::zero(), len);
         system.initialize(&mut state);
         let run = |identity| LaneRun { identity, recorder: Recorder::new(settings, 0), end: None };
         Some(Self {
@@ -113,6 +113,7 @@ impl<T: Scalar> Lanes<T> {
             self.record_row(false);
         }
         let (system, end_s) = (&*self.system, self.settings.step_time_s(self.step + 1));
+        system.expect([Rk4::<T>::middle_s(self.time_s, end_s), end_s]);
         let derivative = |t: f64, x: &[T], rate: &mut [T]| system.derivative(t, x, rate);
         let finite = if is_sampled {
             self.rk4.step_from_slope(self.time_s, end_s, &mut self.state, derivative)

@@ -2,7 +2,7 @@
 
 use super::recorder::Recorder;
 use super::{Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, TRACKING_ERROR_LIMIT_RAD};
-use crate::integrators::{Dopri5, Rk4};
+use crate::integrators::{Aligned, Dopri5, Rk4};
 use crate::recording::Recording;
 
 /// The integrator of a run, with its work space.
@@ -12,8 +12,26 @@ enum Stepper {
     Rk4OnGrid { rk4: Rk4<f64>, every: u64 },
     /// Samples fall inside steps: the slopes at the ends of a step serve to interpolate.
     Rk4 { rk4: Rk4<f64>, slopes: [Vec<f64>; 2] },
-    /// The integrator interpolates.
-    Dopri5(Box<Dopri5>),
+    /// The integrator interpolates; `before` is the state before the last step.
+    Dopri5 { dopri5: Box<Dopri5>, before: Vec<f64> },
+}
+
+impl Stepper {
+    /// State before the last step; where a run that diverges ends up.
+    fn before(&self) -> &[f64] {
+        match self {
+            Self::Rk4OnGrid { rk4, .. } | Self::Rk4 { rk4, .. } => rk4.before(),
+            Self::Dopri5 { before, .. } => before,
+        }
+    }
+
+    /// Where it is kept.
+    fn before_mut(&mut self) -> &mut [f64] {
+        match self {
+            Self::Rk4OnGrid { rk4, .. } | Self::Rk4 { rk4, .. } => rk4.before_mut(),
+            Self::Dopri5 { before, .. } => before,
+        }
+    }
 }
 
 /// A run under way.
@@ -22,9 +40,7 @@ pub struct Simulation {
     system: Box<dyn StateSpace<f64>>,
     settings: Settings,
     stepper: Stepper,
-    state: Vec<f64>,
-    /// State before the last step; where a run that diverges ends up.
-    before: Vec<f64>,
+    state: Aligned<f64>,
     /// Work space for the tracking error.
     error: Vec<f64>,
     step: u64,
@@ -44,10 +60,11 @@ impl Simulation {
                 None => Stepper::Rk4 { rk4: Rk4::new(len), slopes: [vec![0.0; len], vec![0.0; len]] },
             },
             Method::Dopri5(tolerances) => {
-                Stepper::Dopri5(Box::new(Dopri5::new(len, tolerances, settings.step_s.min(settings.duration_s))))
+                let dopri5 = Dopri5::new(len, tolerances, settings.step_s.min(settings.duration_s));
+                Stepper::Dopri5 { dopri5: Box::new(dopri5), before: vec![0.0; len] }
             }
         };
-        let mut state = vec![0.0; len];
+        let mut state = Aligned::repeat(0.0, len);
         system.initialize(&mut state);
         Self {
             identity,
@@ -55,7 +72,6 @@ impl Simulation {
             settings,
             stepper,
             state,
-            before: vec![0.0; len],
             error: vec![0.0; settings.columns.joints],
             step: 0,
             time_s: 0.0,
@@ -88,7 +104,7 @@ impl Simulation {
             found,
         })?;
         run.outcome = snapshot.outcome;
-        if let Stepper::Dopri5(dopri5) = &mut run.stepper {
+        if let Stepper::Dopri5 { dopri5, .. } = &mut run.stepper {
             dopri5.set_step(snapshot.next_step_s);
         }
         Ok(run)
@@ -114,7 +130,7 @@ impl Simulation {
             Stepper::Rk4OnGrid { .. } | Stepper::Rk4 { .. } => {
                 snapshot.step <= settings.steps() && snapshot.time_s == settings.step_time_s(snapshot.step)
             }
-            Stepper::Dopri5(dopri5) => {
+            Stepper::Dopri5 { dopri5, .. } => {
                 (0.0..=settings.duration_s).contains(&snapshot.time_s) && dopri5.accepts_step(snapshot.next_step_s)
             }
         };
@@ -145,7 +161,7 @@ impl Simulation {
             time_s: self.time_s,
             next_step_s: match &self.stepper {
                 Stepper::Rk4OnGrid { .. } | Stepper::Rk4 { .. } => self.settings.step_s,
-                Stepper::Dopri5(dopri5) => dopri5.step_s(),
+                Stepper::Dopri5 { dopri5, .. } => dopri5.step_s(),
             },
             evaluations: self.evaluations,
             state: self.state(),
@@ -223,13 +239,12 @@ impl Simulation {
         self.begin_step()?;
         let is_sampled = self.sample_on_grid()?;
         let start_s = self.time_s;
-        self.before.copy_from_slice(&self.state);
         let (end_s, is_finite) = self.integrate(start_s, is_sampled)?;
         self.time_s = end_s;
         self.step += 1;
         self.check(is_finite)
             .and_then(|()| self.sample(start_s, self.time_s))
-            .inspect_err(|_| self.state.copy_from_slice(&self.before))
+            .inspect_err(|_| self.state.copy_from_slice(self.stepper.before()))
     }
 
     /// Lets happen what happens in one instant; what would leave numbers that are not finite leaves no trace.
@@ -237,12 +252,12 @@ impl Simulation {
         if !self.system.has_events() {
             return Ok(());
         }
-        self.before.copy_from_slice(&self.state);
+        self.stepper.before_mut().copy_from_slice(&self.state);
         self.system.begin_step(self.step, self.time_s, &mut self.state);
         if are_finite(&self.state) {
             return Ok(());
         }
-        self.state.copy_from_slice(&self.before);
+        self.state.copy_from_slice(self.stepper.before());
         Err(Divergence::NotFinite)
     }
 
@@ -269,6 +284,7 @@ impl Simulation {
         let end_s = self.settings.step_time_s(self.step + 1);
         match &mut self.stepper {
             Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
+                system.expect([Rk4::<f64>::middle_s(start_s, end_s), end_s]);
                 let finite = if knows_slope {
                     let finite = rk4.step_from_slope(start_s, end_s, &mut self.state, counted);
                     *evaluations += 1;
@@ -278,10 +294,13 @@ impl Simulation {
                 };
                 Ok((end_s, finite == 0.0))
             }
-            Stepper::Dopri5(dopri5) => dopri5
-                .step(start_s, self.settings.duration_s, &mut self.state, counted)
-                .map(|time_s| (time_s, are_finite(&self.state)))
-                .map_err(|_| Divergence::StepTooSmall),
+            Stepper::Dopri5 { dopri5, before } => {
+                before.copy_from_slice(&self.state);
+                dopri5
+                    .step(start_s, self.settings.duration_s, &mut self.state, counted)
+                    .map(|time_s| (time_s, are_finite(&self.state)))
+                    .map_err(|_| Divergence::StepTooSmall)
+            }
         }
     }
 
@@ -296,10 +315,11 @@ impl Simulation {
 
     /// Takes the samples inside the step just made, and the end of the run.
     fn sample(&mut self, start_s: f64, end_s: f64) -> Result<(), Divergence> {
-        let (system, state, before, recorder) = (&*self.system, &self.state, &self.before, &mut self.recorder);
+        let (system, state, recorder) = (&*self.system, &self.state, &mut self.recorder);
         match &mut self.stepper {
             Stepper::Rk4OnGrid { .. } => {}
-            Stepper::Rk4 { slopes, .. } => {
+            Stepper::Rk4 { rk4, slopes } => {
+                let before = rk4.before();
                 if recorder.is_due_before(end_s) {
                     system.derivative(start_s, before, &mut slopes[0]);
                     system.derivative(end_s, state, &mut slopes[1]);
@@ -309,7 +329,7 @@ impl Simulation {
                     })?;
                 }
             }
-            Stepper::Dopri5(dopri5) => {
+            Stepper::Dopri5 { dopri5, .. } => {
                 recorder.record_before(system, end_s, |t, x| dopri5.interpolate(t, state, x))?;
             }
         }

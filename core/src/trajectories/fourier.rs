@@ -67,8 +67,20 @@ impl<T: Scalar, const N: usize> Fourier<T, N> {
     /// Desired motion at `time_s`. Units: rad, rad/s, rad/s². Source: paper eq. (24).
     #[inline(always)]
     pub fn at(&self, time_s: f64) -> Desired<T, N> {
+        self.turned_by(Scalar::sin_cos(self.frequency_rad_s * time_s))
+    }
+
+    /// Desired motion at two instants, with the bits of [`Self::at`].
+    #[inline(always)]
+    pub fn at_two(&self, [a, b]: [f64; 2]) -> [Desired<T, N>; 2] {
+        let (a, b) = f64::sin_cos_of_two(self.frequency_rad_s * a, self.frequency_rad_s * b);
+        [self.turned_by(a), self.turned_by(b)]
+    }
+
+    /// Desired motion where the base frequency has turned by an angle with this sine and cosine.
+    #[inline(always)]
+    fn turned_by(&self, (sin1, cos1): (f64, f64)) -> Desired<T, N> {
         let mut desired = Desired { position: self.offset, velocity: SVector::zeros(), acceleration: SVector::zeros() };
-        let (sin1, cos1) = Scalar::sin_cos(self.frequency_rad_s * time_s);
         let (mut sin, mut cos) = (sin1, cos1);
         let mut rate = self.frequency_rad_s;
         for (a, b) in &self.harmonics {

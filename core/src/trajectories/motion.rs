@@ -67,6 +67,15 @@ impl<T: Scalar, const N: usize> Trajectory<T, N> {
             Self::Motions(motions) => number_by_number(motions, time_s),
         }
     }
+
+    /// Desired motion at two instants, with the bits of [`Self::at`].
+    #[inline(always)]
+    pub fn at_two(&self, times_s: [f64; 2]) -> [Desired<T, N>; 2] {
+        match self {
+            Self::Fourier(fourier) => fourier.at_two(times_s),
+            Self::Motions(motions) => times_s.map(|time_s| number_by_number(motions, time_s)),
+        }
+    }
 }
 
 /// Each lane's own motion, put side by side.

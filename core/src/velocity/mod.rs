@@ -54,14 +54,14 @@ pub trait VelocitySource<T: Scalar, const N: usize>: Send {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrators::Rk4;
+    use crate::integrators::{Aligned, Rk4};
 
     /// Worst difference between a source's velocity for `q = sin Ω t` and `expected`, once its start is forgotten.
     pub(super) fn response(source: &impl VelocitySource<f64, 1>, frequency: f64, expected: impl Fn(f64) -> f64) -> f64 {
         let at = |t: f64| SVector::from([(frequency * t).sin()]);
         let still = Desired { position: SVector::zeros(), velocity: SVector::zeros(), acceleration: SVector::zeros() };
         let estimate = |t: f64, x: &[f64]| source.estimate(&at(t), &SVector::zeros(), &still, x);
-        let mut x = vec![0.0; source.states()];
+        let mut x = Aligned::repeat(0.0, source.states());
         source.initialize(&at(0.0), &still, &mut x);
         let mut rk4 = Rk4::new(x.len());
         let (h, mut worst) = (1e-4, 0.0_f64);

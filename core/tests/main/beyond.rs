@@ -3,7 +3,7 @@
 
 use adaptarm_core::adaptation::{AdaptationInput, AdaptationLaw, FilteredRegressor, LeastSquaresAdaptation};
 use adaptarm_core::dynamics::{FrictionSign, Plant};
-use adaptarm_core::integrators::Rk4;
+use adaptarm_core::integrators::{Aligned, Rk4};
 use adaptarm_core::metrics::peak;
 use adaptarm_core::recording::Signal;
 use adaptarm_core::robots::{CrsA465, Regressor, Robot};
@@ -86,6 +86,7 @@ fn check_batch(forgetting: f64) {
         x[information + 19 * k] = 1.0 / p0;
         x[correlation + k] = theta_start / p0;
     }
+    let mut x = Aligned::from(x.as_slice());
     let mut rk4 = Rk4::new(x.len());
     let rhs = |t: f64, x: &[f64], rate: &mut [f64]| {
         let (geometry, velocity, torque) = (CrsA465::geometry(&vector(x)), vector(&x[3..]), torque_at(t));
@@ -141,6 +142,7 @@ fn forgetting_without_excitation_is_bounded() {
     let geometry = CrsA465::geometry(&zero);
     let mut x = vec![0.0; AdaptationLaw::<CrsA465, f64, 3, 18>::states(&law)];
     law.initialize(&geometry, &zero, &mut x);
+    let mut x = Aligned::from(x.as_slice());
     let mut rk4 = Rk4::new(x.len());
     for n in 0..5000 {
         rk4.step(f64::from(n) * 1e-3, f64::from(n + 1) * 1e-3, &mut x, |_, x, rate| {

@@ -3,7 +3,7 @@
 
 use adaptarm_core::adaptation::FilteredRegressor;
 use adaptarm_core::dynamics::{FrictionSign, Plant};
-use adaptarm_core::integrators::Rk4;
+use adaptarm_core::integrators::{Aligned, Rk4};
 use adaptarm_core::regressor::model_torque;
 use adaptarm_core::robots::{CrsA465, Robot};
 use adaptarm_core::scenario::{FrictionDocument, MethodDocument, Scenario, ScenarioDocument, Scheme, SchemeDocument};
@@ -91,6 +91,7 @@ fn filtered_regressor_times_theta_is_filtered_torque() {
         let (y, tau_f) = filter.advance(&geometry, &velocity, &sign, &torque, &x[6..], &mut rate[6..]);
         filtered_torques.push((model_torque::<CrsA465, f64, 3, 18>(&y, theta.as_slice()), tau_f));
     };
+    let mut x = Aligned::from(x.as_slice());
     let mut rk4 = Rk4::new(x.len());
     for n in 0..2000 {
         rk4.step(f64::from(n) * 1e-3, f64::from(n + 1) * 1e-3, &mut x, &mut rhs);
@@ -133,7 +134,7 @@ fn a_free_arm_keeps_its_energy() {
         let (h, _) = CrsA465::inertia_and_bias(&CrsA465::geometry(&q), &theta, &v, &Vector3::zeros());
         0.5 * v.dot(&(h * v)) + theta[16] * q[1].sin() + theta[17] * (q[1] + q[2]).sin()
     };
-    let mut x = vec![0.0, 0.5, -0.3, 0.8, 0.0, 0.5];
+    let mut x = Aligned::from([0.0, 0.5, -0.3, 0.8, 0.0, 0.5].as_slice());
     let start = energy(&x);
     let mut rk4 = Rk4::new(6);
     for n in 0..5000 {

@@ -1,7 +1,7 @@
 //! Imperfections: nothing where they are zero, the right thing where they are not, and no bits lost over a pause.
 
 use adaptarm_core::dynamics::{FrictionSign, Plant};
-use adaptarm_core::integrators::Rk4;
+use adaptarm_core::integrators::{Aligned, Rk4};
 use adaptarm_core::recording::Signal;
 use adaptarm_core::robots::{CrsA465, Robot, payload_parameters};
 use adaptarm_core::scenario::{
@@ -224,8 +224,9 @@ fn the_sampled_loop_is_the_one_written_by_hand() {
     let per_kg = SVector::<f64, 18>::from_vec(payload_parameters(CrsA465::DATA).unwrap());
     let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
     let (angle, rate) = wanted(0.0);
-    let mut x: Vec<f64> = angle.iter().chain(&rate).copied().collect();
+    let x: Vec<f64> = angle.iter().chain(&rate).copied().collect();
     let (mut held, mut coming) = (Vector3::zeros(), Vector3::zeros());
+    let mut x = Aligned::from(x.as_slice());
     let mut rk4 = Rk4::new(6);
     for n in 0..500 {
         let t = f64::from(n) * 1e-3;

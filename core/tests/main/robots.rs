@@ -2,7 +2,7 @@
 
 use crate::laws::Told;
 use adaptarm_core::dynamics::{FrictionSign, Plant};
-use adaptarm_core::integrators::Rk4;
+use adaptarm_core::integrators::{Aligned, Rk4};
 use adaptarm_core::lanes;
 use adaptarm_core::metrics::peak;
 use adaptarm_core::recording::Signal;
@@ -38,21 +38,23 @@ fn worst_deg(run: &Run, from_s: f64, to_s: f64) -> f64 {
 /// Swings `plant` from `q` at velocity `v` without torque; `each` sees every step's end.
 fn swing<R: Robot<N, P>, const N: usize, const P: usize>(
     plant: &Plant<R, f64, N, P>,
-    x: &mut Vec<f64>,
+    x: &mut [f64],
     steps: u32,
     mut each: impl FnMut(f64, &[f64]),
 ) {
+    let mut state = Aligned::from(&*x);
     let mut rk4 = Rk4::new(2 * N);
     let still = SVector::<f64, N>::zeros();
     for n in 0..steps {
-        rk4.step(f64::from(n) * 1e-3, f64::from(n + 1) * 1e-3, x, |_, x, rate| {
+        rk4.step(f64::from(n) * 1e-3, f64::from(n + 1) * 1e-3, &mut state, |_, x, rate| {
             let [q, v] = [&x[..N], &x[N..]].map(SVector::<f64, N>::from_column_slice);
             let a = plant.acceleration(&R::geometry(&q), &v, &plant.friction_sign.of(&v), &still);
             rate[..N].copy_from_slice(v.as_slice());
             rate[N..].copy_from_slice(a.as_slice());
         });
-        each(f64::from(n + 1) * 1e-3, x);
+        each(f64::from(n + 1) * 1e-3, &state);
     }
+    x.copy_from_slice(&state);
 }
 
 /// A robot's parameters without friction.
