@@ -49,7 +49,8 @@ async function compute(job, scenario) {
         postMessage({ type: "abandoned", job, progress });
         return;
       }
-      if (now - reported > PROGRESS_EVERY_MS) {
+      // What is nearly done is seen soon enough.
+      if (now - reported > PROGRESS_EVERY_MS && left > NEARLY_DONE_MS) {
         reported = now;
         const rows = run.partial_rows(PARTIAL_ROWS);
         postMessage({ type: "progress", job, progress, rows }, [rows.buffer]);

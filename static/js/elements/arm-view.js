@@ -13,6 +13,8 @@ import { Orbit } from "./orbit.js";
 
 /** More device pixels than this per layout pixel cost time and are not seen. */
 const FINEST = 2;
+/** As many smooth edges where a processor draws, which takes as long as there are pixels. */
+const FINEST_BY_PROCESSOR = 1.4;
 /** A context that has not come back by then does not come back. */
 const PATIENCE_MS = 5000;
 /** What has not changed for so long rests. */
@@ -100,9 +102,13 @@ export class ArmView extends HTMLElement {
   }
 
   #begin() {
-    this.#newCanvas("application", strings.stage.kind);
     try {
-      this.#gl = new this.#bindings.ArmView(this.canvas);
+      this.#gl = this.#newView(true);
+      if (this.#gl.is_slow && this.#gl.is_smooth) {
+        // Multisampling takes a processor twice as long; who draws is known only once there is a canvas.
+        this.#gl.free();
+        this.#gl = this.#newView(false);
+      }
     } catch (error) {
       this.#fallBack(failureOf(error).message);
       return;
@@ -110,6 +116,11 @@ export class ArmView extends HTMLElement {
     this.canvas.addEventListener("webglcontextlost", (event) => this.#loseContext(event));
     this.canvas.addEventListener("webglcontextrestored", () => this.#restoreContext());
     this.orbit.attach(this.canvas);
+  }
+
+  #newView(smooth) {
+    this.#newCanvas("application", strings.stage.kind);
+    return new this.#bindings.ArmView(this.canvas, smooth);
   }
 
   /** A canvas that has had a context of one kind never gives one of another. */
@@ -151,7 +162,7 @@ export class ArmView extends HTMLElement {
     }
     clearTimeout(this.#lost);
     try {
-      this.#gl = new this.#bindings.ArmView(this.canvas);
+      this.#gl = new this.#bindings.ArmView(this.canvas, true);
       this.#message.textContent = "";
       this.redraw();
     } catch (error) {
@@ -197,7 +208,7 @@ export class ArmView extends HTMLElement {
       return 1;
     }
     // Where nothing else smooths edges, more pixels do.
-    return slow && !this.#gl.is_smooth ? FINEST : Math.min(devicePixelRatio || 1, FINEST);
+    return slow && !this.#gl.is_smooth ? FINEST_BY_PROCESSOR : Math.min(devicePixelRatio || 1, FINEST);
   }
 
   #resize({ width, height }) {

@@ -14,14 +14,15 @@ pub(super) type Failed = String;
 
 const FLOAT: i32 = 4;
 
-/// A canvas' WebGL2, and whether a processor has to do the graphics card's work.
-pub(super) fn context(canvas: &HtmlCanvasElement) -> Result<(Gl, bool), Failed> {
+/// A canvas' WebGL2, and whether a processor has to do the graphics card's work. `smooth` asks for multisampling, which a
+/// processor that says so itself does not get.
+pub(super) fn context(canvas: &HtmlCanvasElement, smooth: bool) -> Result<(Gl, bool), Failed> {
     let attempt = |slow: bool| -> Option<Gl> {
         let attributes = WebGlContextAttributes::new();
         attributes.set_alpha(true);
         attributes.set_depth(true);
         attributes.set_stencil(true);
-        attributes.set_antialias(!slow);
+        attributes.set_antialias(smooth && !slow);
         attributes.set_fail_if_major_performance_caveat(!slow);
         canvas.get_context_with_context_options("webgl2", attributes.as_ref()).ok()??.dyn_into().ok()
     };

@@ -72,8 +72,8 @@ enum Shown {
 }
 
 impl Scene {
-    pub fn new(canvas: &HtmlCanvasElement) -> Result<Self, Failed> {
-        let (gl, is_slow) = context(canvas)?;
+    pub fn new(canvas: &HtmlCanvasElement, smooth: bool) -> Result<Self, Failed> {
+        let (gl, is_slow) = context(canvas, smooth)?;
         let samples = gl.get_parameter(Gl::SAMPLES).ok().and_then(|samples| samples.as_f64());
         let arm = Kinematics::new(ROBOTS[0]);
         Ok(Self {

@@ -44,11 +44,11 @@ mod drawing {
 
     #[wasm_bindgen]
     impl ArmView {
-        /// Takes a canvas. Throws JSON text `{pointer, message}` where there is no WebGL2 and where it fails. After a lost
-        /// context another view is made on the same canvas.
+        /// Takes a canvas, with multisampling if it is to be `smooth`. Throws JSON text `{pointer, message}` where there is no
+        /// WebGL2 and where it fails. After a lost context another view is made on the same canvas, which stays as it was.
         #[wasm_bindgen(constructor)]
-        pub fn new(canvas: &HtmlCanvasElement) -> Result<Self, JsValue> {
-            Ok(Self { scene: Scene::new(canvas).map_err(Failure::new)? })
+        pub fn new(canvas: &HtmlCanvasElement, smooth: bool) -> Result<Self, JsValue> {
+            Ok(Self { scene: Scene::new(canvas, smooth).map_err(Failure::new)? })
         }
 
         /// Whether a processor does the graphics card's work, so that drawings should be few and small.
