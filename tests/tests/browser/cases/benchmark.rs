@@ -27,6 +27,22 @@ const RUN: &str = "const [scenario, done] = arguments; (async () => { \
         const report = JSON.parse(run.report()); const elapsed = performance.now() - start; \
         run.free(); done([elapsed, report.trajectory_hash]); })()";
 
+/// Runs all scenarios of a list in a pool of two workers of its own, as often as is said and a few times before to warm up;
+/// answers with the times in ms until the last has ended, hashed and measured, and its samples are there.
+const STUDY: &str = "const [scenarios, rounds, done] = arguments; (async () => { \
+        const script = document.querySelector('script[type=module]').src; \
+        const [{ RunPool }, { loadModule }] = await Promise.all(['pool.js', 'wasm.js'].map((file) => import(new URL(file, script)))); \
+        const { module } = await loadModule(); let ended; const hear = () => ended(); \
+        const pool = new RunPool(module, 2, { done: hear, failed: hear, progress() {}, stopped() {}, restarted() {}, gaveUp() {} }); \
+        const times = []; \
+        for (let round = -5; round < rounds; round += 1) { \
+            const start = performance.now(); let left = scenarios.length; \
+            await new Promise((resolve) => { ended = () => { if ((left -= 1) === 0) resolve(); }; \
+                scenarios.forEach((scenario, n) => pool.submit(`run ${n}`, round, scenario)); }); \
+            if (round >= 0) times.push(performance.now() - start); \
+        } \
+        pool.end(); done(times); })()";
+
 /// Notes when the first results were on the screen.
 const FIRST_READY: &str = "new MutationObserver((_, observer) => { \
         if (document.documentElement?.dataset.state !== 'ready') return; \
@@ -39,6 +55,7 @@ pub fn run(bench: &Bench) -> Result<()> {
     println!("The page in Chromium, default study, 12 s at 1 ms, three schemes, {} processors", processors());
     println!("{:<44}{:>10}{:>10}{:>10}{:>10}", "", "median", "p95", "worst", "limit");
     slider(bench)?;
+    computed(bench)?;
     dragging(bench)?;
     first_visit(bench)?;
     against_native(bench)
@@ -113,6 +130,16 @@ fn slider(bench: &Bench) -> Result<()> {
     row("slider to canvases, by the page itself, ms", told, "");
     row("slider to canvases, ms", canvas, "");
     row("slider to the end of the frame, ms", frame, "40 / 70");
+    Ok(())
+}
+
+/// The runs alone, without a page that draws them.
+fn computed(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    let scenarios: Vec<_> =
+        Scheme::ALL.into_iter().map(|scheme| serde_json::to_string(&scheme.paper())).collect::<Result<_, _>>()?;
+    let times = numbers(&page.run_async(STUDY, &[json!(scenarios), json!(MOVES)])?)?;
+    row("the study's runs on two workers, ms", times, "35");
     Ok(())
 }
 
