@@ -133,7 +133,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
             let (j, g) = Self::LAYOUT.whole[n];
             let kept = Self::LAYOUT.kept_as[j][g];
             let of_z = if kept == NONE { Self::gathered(z, j, g) } else { T::Pack::load(&z[kept * Self::WIDTH..]) };
-            sum[g] = sum[g] + of_z * <T::Pack as Pack<T>>::repeat(theta_hat_rate[j]);
+            sum[g] += of_z * <T::Pack as Pack<T>>::repeat(theta_hat_rate[j]);
         });
     }
 

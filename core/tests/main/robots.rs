@@ -97,7 +97,7 @@ fn the_pendulum_keeps_time_as_the_elliptic_integral_says() {
     for amplitude in [0.1, 1.0, 2.5, 3.0] {
         let period = 4.0 * (theta[0] / theta[3]).sqrt() * complete_elliptic_integral((0.5_f64 * amplitude).sin());
         let (mut before, mut crossings) = ((0.0, amplitude), Vec::new());
-        swing(&plant, &mut vec![amplitude, 0.0], 8000, |t, x| {
+        swing(&plant, &mut [amplitude, 0.0], 8000, |t, x| {
             if before.1 < 0.0 && x[0] >= 0.0 {
                 crossings.push(before.0 - before.1 * (t - before.0) / (x[0] - before.1));
             }
