@@ -43,7 +43,7 @@ pub(crate) use unrolled;
 mod tests {
     #[test]
     fn visits_every_index_once_in_order() {
-        for len in [0, 1, 7, 64, 126, 128, 200] {
+        for len in [0, 1, 7, 64, 126, 128, 191, 192, 193, 200] {
             let mut visited = Vec::new();
             unrolled!(len, n => { visited.push(n); });
             assert!(visited.into_iter().eq(0..len));

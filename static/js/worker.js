@@ -8,7 +8,8 @@ import init, { Run } from "../generated/adaptarm_web.js";
 
 /** Length of a slice: as soon as this a run hears that it is stale. Half as long cost two or three milliseconds of a study's sixty. */
 const SLICE_MS = 12;
-/** A stale run that ends this soon is finished: while a slider is dragged, something must get to the screen. */
+/** A stale run that ends this soon is finished: while a slider is dragged, something must get to the screen. Any run
+ * that does is drawn on its way later than others. */
 const NEARLY_DONE_MS = 80;
 const PROGRESS_EVERY_MS = 100;
 /** What is drawn of a run under way: a picture is no wider than this. */
@@ -49,8 +50,9 @@ async function compute(job, scenario) {
         postMessage({ type: "abandoned", job, progress });
         return;
       }
-      // What is nearly done is seen soon enough.
-      if (now - reported > PROGRESS_EVERY_MS && left > NEARLY_DONE_MS) {
+      // What is nearly done is seen soon enough; but who is silent for long counts as dead, and what is left may take longer.
+      const patience = left > NEARLY_DONE_MS ? PROGRESS_EVERY_MS : PROGRESS_EVERY_MS + NEARLY_DONE_MS;
+      if (now - reported > patience) {
         reported = now;
         const rows = run.partial_rows(PARTIAL_ROWS);
         postMessage({ type: "progress", job, progress, rows }, [rows.buffer]);

@@ -32,7 +32,7 @@ pub enum CompositeLaw<T, const P: usize> {
     Mixed(Mixing<P>),
 }
 
-/// A composite law: filter, memory, and how they move θ̂. States: filter, then memory.
+/// A composite law: filter, memory, and how they move θ̂. States: filter, filled up to a whole vector, then memory.
 #[derive(Debug, Clone, Copy)]
 pub struct CompositeAdaptation<R, T, const N: usize, const P: usize> {
     /// The filtered regressor.
@@ -81,14 +81,10 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
                 let correction = projection.correction(k, load(&theta_hat[k..]), drive);
                 -load(&gain.as_slice()[k..]) * (drive + correction)
             }
+            // Never asked: the caller has its rates from elsewhere.
             Self::Mixed(_) => <S as num_traits::Zero>::zero(),
         }
     }
-}
-
-impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptation<R, T, N, P> {
-    /// Where the memory's states begin: at a multiple of a vector's length.
-    const MEMORY: usize = FilteredRegressor::<R, T, N, P>::STATES.next_multiple_of(<T::Pack as Pack<T>>::WIDTH);
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R, T, N, P>
@@ -139,6 +135,9 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 }
 
 impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptation<R, T, N, P> {
+    /// Where the memory's states begin: at a multiple of a vector's length.
+    const MEMORY: usize = FilteredRegressor::<R, T, N, P>::STATES.next_multiple_of(<T::Pack as Pack<T>>::WIDTH);
+
     /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
     #[inline(never)]
     fn derivative_apart(

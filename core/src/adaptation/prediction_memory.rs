@@ -124,7 +124,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         Self::write_kept(filtered, &rows, [gain, forgetting], z, z_rate);
     }
 
-    /// `sum += Z θ̂'`.
+    /// `sum += Z θ̂'`. A function of its own in the browser's module, which is smaller then and as fast.
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn add_rows(z: &[T], theta_hat_rate: &[T], sum: &mut [T::Pack; P]) {

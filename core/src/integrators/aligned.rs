@@ -5,7 +5,7 @@ use std::ops::{Deref, DerefMut};
 /// Bytes of a cache line, and of the longest vector.
 const LINE: usize = 64;
 
-/// A list of fixed length.
+/// Numbers from a line's start on, as many as at first. Not `Clone`: a derived copy would begin anywhere.
 #[derive(Debug)]
 pub struct Aligned<T> {
     /// With room to begin where a line does.

@@ -54,7 +54,11 @@ macro_rules! lanes {
             #[inline(always)]
             #[allow(dead_code, reason = "as above")]
             pub(super) fn gather(numbers: &[f64], at: [Option<usize>; MOST_PACKED]) -> Self {
-                Self::from_array(std::array::from_fn(|lane| at[lane].map_or(0.0, |n| numbers[n])))
+                let mut found = [0.0; $width];
+                for lane in 0..$width.min(MOST_PACKED) {
+                    found[lane] = at[lane].map_or(0.0, |n| numbers[n]);
+                }
+                Self::from_array(found)
             }
             #[inline(always)]
             pub(super) fn to_array(self) -> [f64; $width] {

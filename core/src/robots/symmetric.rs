@@ -157,6 +157,7 @@ mod tests {
             }
             for (n, entries) in found.into_iter().enumerate() {
                 let ((row, group), column) = (layout.kept[n / width], layout.kept[n / width].1 * width + n % width);
+                prop_assert_eq!(layout.kept_as[row][group], n / width);
                 prop_assert!(entries.iter().all(|&entry| entry == (row, column) || entry == (column, row)));
                 prop_assert_eq!(entries.contains(&(row, column)), column < P, "row {} of group {}", row, group);
             }

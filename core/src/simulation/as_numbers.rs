@@ -22,8 +22,8 @@ impl StateSpace<f64> for AsNumbers {
     fn initialize(&self, x: &mut [f64]) {
         self.0.initialize(Neighbour::of_mut(x));
     }
-    fn expect(&self, times_s: [f64; 2]) {
-        self.0.expect(times_s);
+    fn foresee(&self, times_s: [f64; 2]) {
+        self.0.foresee(times_s);
     }
     fn derivative(&self, time_s: f64, x: &[f64], rate: &mut [f64]) {
         self.0.derivative(time_s, Neighbour::of(x), Neighbour::of_mut(rate));

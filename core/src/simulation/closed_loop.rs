@@ -1,6 +1,6 @@
 //! The closed loop: one robot, one trajectory, and a scheme put together from its three choices.
 //!
-//! State vector: q, q̇, the velocity source's states, θ̂, the adaptation law's states. All that depends on q alone is
+//! State vector: q, q̇, the velocity source's states, θ̂, filled up to a whole vector, the adaptation law's states. All that depends on q alone is
 //! computed once per evaluation and shared by plant, controller and filter.
 
 use super::StateSpace;
@@ -61,7 +61,7 @@ struct Layout {
     theta_hat: usize,
     /// End of θ̂.
     theta_end: usize,
-    /// A multiple of a vector's length, so that the law's vectors never lie across two cache lines; what is skipped stays zero.
+    /// Start of the law's states: a multiple of a vector's length, so that the law's vectors never lie across two cache lines; what is skipped stays zero.
     adaptation: usize,
     len: usize,
 }
@@ -204,8 +204,8 @@ where
         self.adaptation.initialize(&R::geometry(&desired.position), &estimate.velocity, law);
     }
 
-    fn expect(&self, times_s: [f64; 2]) {
-        T::compiled(Expect { trajectory: &self.trajectory, times_s });
+    fn foresee(&self, times_s: [f64; 2]) {
+        T::compiled(Foresee { trajectory: &self.trajectory, times_s });
     }
 
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
@@ -230,18 +230,18 @@ where
     }
 }
 
-/// [`Remembered::expect`], compiled for each kind of scalar.
-struct Expect<'a, T: Scalar, const N: usize> {
+/// [`Remembered::foresee`], compiled for each kind of scalar.
+struct Foresee<'a, T: Scalar, const N: usize> {
     trajectory: &'a Remembered<T, N>,
     times_s: [f64; 2],
 }
 
-impl<T: Scalar, const N: usize> Kernel for Expect<'_, T, N> {
+impl<T: Scalar, const N: usize> Kernel for Foresee<'_, T, N> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        self.trajectory.expect(self.times_s);
+        self.trajectory.foresee(self.times_s);
     }
 }
 

@@ -113,7 +113,7 @@ impl<T: Scalar> Lanes<T> {
             self.record_row(false);
         }
         let (system, end_s) = (&*self.system, self.settings.step_time_s(self.step + 1));
-        system.expect([Rk4::<T>::middle_s(self.time_s, end_s), end_s]);
+        system.foresee([Rk4::<T>::middle_s(self.time_s, end_s), end_s]);
         let derivative = |t: f64, x: &[T], rate: &mut [T]| system.derivative(t, x, rate);
         let finite = if is_sampled {
             self.rk4.step_from_slope(self.time_s, end_s, &mut self.state, derivative)

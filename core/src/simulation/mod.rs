@@ -57,7 +57,7 @@ pub trait StateSpace<T: Scalar>: Send {
     /// Writes the initial state.
     fn initialize(&self, x: &mut [T]);
     /// Says at which two instants beside its start a fixed step will evaluate the system.
-    fn expect(&self, _times_s: [f64; 2]) {}
+    fn foresee(&self, _times_s: [f64; 2]) {}
     /// Writes `f(t, x)`.
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
     /// Writes one row of a recording without its time: see [`Columns`].

@@ -284,7 +284,7 @@ impl Simulation {
         let end_s = self.settings.step_time_s(self.step + 1);
         match &mut self.stepper {
             Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
-                system.expect([Rk4::<f64>::middle_s(start_s, end_s), end_s]);
+                system.foresee([Rk4::<f64>::middle_s(start_s, end_s), end_s]);
                 let finite = if knows_slope {
                     let finite = rk4.step_from_slope(start_s, end_s, &mut self.state, counted);
                     *evaluations += 1;

@@ -13,7 +13,7 @@ import { Orbit } from "./orbit.js";
 
 /** More device pixels than this per layout pixel cost time and are not seen. */
 const FINEST = 2;
-/** As many smooth edges where a processor draws, which takes as long as there are pixels. */
+/** Where a processor draws without multisampling, more pixels smooth edges a little, and each takes time. */
 const FINEST_BY_PROCESSOR = 1.4;
 /** A context that has not come back by then does not come back. */
 const PATIENCE_MS = 5000;
@@ -105,9 +105,10 @@ export class ArmView extends HTMLElement {
     try {
       this.#gl = this.#newView(true);
       if (this.#gl.is_slow && this.#gl.is_smooth) {
-        // Multisampling takes a processor twice as long; who draws is known only once there is a canvas.
-        this.#gl.free();
+        // Multisampling takes a processor longer; who draws is known only from a context, which keeps its attributes.
+        const smooth = this.#gl;
         this.#gl = this.#newView(false);
+        smooth.free();
       }
     } catch (error) {
       this.#fallBack(failureOf(error).message);
@@ -162,6 +163,7 @@ export class ArmView extends HTMLElement {
     }
     clearTimeout(this.#lost);
     try {
+      // With the attributes that the canvas' first context had.
       this.#gl = new this.#bindings.ArmView(this.canvas, true);
       this.#message.textContent = "";
       this.redraw();

@@ -14,8 +14,8 @@ pub(super) type Failed = String;
 
 const FLOAT: i32 = 4;
 
-/// A canvas' WebGL2, and whether a processor has to do the graphics card's work. `smooth` asks for multisampling, which a
-/// processor that says so itself does not get.
+/// A canvas' WebGL2, and whether a processor has to do the graphics card's work. `smooth` asks for multisampling;
+/// it is not given where the browser itself calls WebGL slow.
 pub(super) fn context(canvas: &HtmlCanvasElement, smooth: bool) -> Result<(Gl, bool), Failed> {
     let attempt = |slow: bool| -> Option<Gl> {
         let attributes = WebGlContextAttributes::new();

@@ -1,4 +1,4 @@
-//! The page's speed as `cargo xtask bench` prints it: a slider's way to the screen, the longest task while dragging, a first
+//! The page's speed as `cargo xtask bench` prints it: a slider's way to the screen, the study's runs alone, the longest task while dragging, a first
 //! visit, its size, its module against the same core compiled for this machine. Limits stand beside; timing fails nothing,
 //! because machines differ and others may use this one.
 
@@ -28,20 +28,21 @@ const RUN: &str = "const [scenario, done] = arguments; (async () => { \
         run.free(); done([elapsed, report.trajectory_hash]); })()";
 
 /// Runs all scenarios of a list in a pool of two workers of its own, as often as is said and a few times before to warm up;
-/// answers with the times in ms until the last has ended, hashed and measured, and its samples are there.
-const STUDY: &str = "const [scenarios, rounds, done] = arguments; (async () => { \
+/// answers with the times in ms until the last has ended, hashed and measured, and its samples are there, and with the hashes.
+const STUDY: &str = "const [scenarios, warmUp, rounds, done] = arguments; (async () => { \
         const script = document.querySelector('script[type=module]').src; \
         const [{ RunPool }, { loadModule }] = await Promise.all(['pool.js', 'wasm.js'].map((file) => import(new URL(file, script)))); \
-        const { module } = await loadModule(); let ended; const hear = () => ended(); \
-        const pool = new RunPool(module, 2, { done: hear, failed: hear, progress() {}, stopped() {}, restarted() {}, gaveUp() {} }); \
-        const times = []; \
-        for (let round = -5; round < rounds; round += 1) { \
+        const { module } = await loadModule(); let ended; const fail = (failure) => done(JSON.stringify(failure)); \
+        const pool = new RunPool(module, 2, { done: ({ scheme, report }) => ended(scheme, report.trajectory_hash), failed: fail, \
+            gaveUp: fail, progress() {}, stopped() {}, restarted() {} }); \
+        const times = []; const hashes = {}; \
+        for (let round = -warmUp; round < rounds; round += 1) { \
             const start = performance.now(); let left = scenarios.length; \
-            await new Promise((resolve) => { ended = () => { if ((left -= 1) === 0) resolve(); }; \
-                scenarios.forEach((scenario, n) => pool.submit(`run ${n}`, round, scenario)); }); \
+            await new Promise((resolve) => { ended = (run, hash) => { hashes[run] = hash; if ((left -= 1) === 0) resolve(); }; \
+                scenarios.forEach((scenario, n) => pool.submit(n, round, scenario)); }); \
             if (round >= 0) times.push(performance.now() - start); \
         } \
-        pool.end(); done(times); })()";
+        pool.end(); done([times, scenarios.map((_, n) => hashes[n])]); })()";
 
 /// Notes when the first results were on the screen.
 const FIRST_READY: &str = "new MutationObserver((_, observer) => { \
@@ -136,10 +137,17 @@ fn slider(bench: &Bench) -> Result<()> {
 /// The runs alone, without a page that draws them.
 fn computed(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    let scenarios: Vec<_> =
-        Scheme::ALL.into_iter().map(|scheme| serde_json::to_string(&scheme.paper())).collect::<Result<_, _>>()?;
-    let times = numbers(&page.run_async(STUDY, &[json!(scenarios), json!(MOVES)])?)?;
-    row("the study's runs on two workers, ms", times, "35");
+    let scenarios = Scheme::ALL.map(|scheme| Scenario::new(scheme.paper()));
+    let (mut texts, mut hashes) = (Vec::new(), Vec::new());
+    for scenario in scenarios {
+        let scenario = scenario?;
+        texts.push(serde_json::to_string(scenario.document())?);
+        hashes.push(scenario.run().report.trajectory_hash);
+    }
+    let answer = page.run_async(STUDY, &[json!(texts), json!(WARM_UP), json!(MOVES)])?;
+    ensure!(answer[1] == json!(hashes), "{answer} instead of {hashes:?}");
+    // The limit is what the study alone may take of a move's forty.
+    row("the study's runs on two workers, ms", numbers(&answer[0])?, "35");
     Ok(())
 }
 

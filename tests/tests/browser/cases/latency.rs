@@ -70,7 +70,7 @@ pub fn a_move_is_drawn_once(bench: &Bench) -> Result<()> {
         let (arms, took_ms) = (counted[1].as_f64().context("no arms")?, counted[2].as_f64().context("no time")?);
         ensure!(!figures.is_empty() && figures.iter().all(|drawings| *drawings > 0.0), "not drawn: {figures:?}");
         in_time += i32::from(took_ms < LATE_MS);
-        // On a busy machine two workers tell of their runs as often as late results are shown.
+        // Per 100 ms one showing of late results, and one message on the way from each of two workers.
         let most = 1.0 + 3.0 * (took_ms / LATE_MS).floor();
         ensure!(figures.iter().all(|drawings| *drawings <= most), "move {n}, {took_ms} ms: figures {figures:?} times");
         ensure!(arms <= most, "move {n}, {took_ms} ms: arms {arms} times");
