@@ -17,6 +17,16 @@ export function element(tag, attributes = {}, ...children) {
   return node;
 }
 
+/**
+ * Chooses a select's option unless it is chosen: whenever a script chooses, be it the same again, Chromium goes over all
+ * fields of the select's form (without one, of the page) to see what it could fill in, which takes as long as a run.
+ */
+export function choose(select, value) {
+  if (select.value !== value) {
+    select.value = value;
+  }
+}
+
 /** Text with `K_s` and the like written with subscripts. */
 export function symbol(text) {
   return text.split(/_(\w+)/u).map((part, n) => (n % 2 ? element("sub", {}, part) : part));

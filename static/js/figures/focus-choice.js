@@ -1,6 +1,6 @@
 // The choice of a run for figures that show one at a time.
 
-import { element } from "../dom.js";
+import { choose, element } from "../dom.js";
 import { strings } from "../strings/index.js";
 
 /** Puts the choice among a card's `tools`; returns what to call when runs come and go. */
@@ -16,7 +16,7 @@ export function addFocusChoice(tools, figures) {
       listed = key;
       choice.replaceChildren(...runs.map(({ id, name }) => element("option", { value: id }, name)));
     }
-    choice.value = runs.some(({ id }) => id === figures.focus) ? figures.focus : (runs[0]?.id ?? "");
+    choose(choice, runs.some(({ id }) => id === figures.focus) ? figures.focus : (runs[0]?.id ?? ""));
     choice.disabled = runs.length === 0;
   };
 }

@@ -1,7 +1,7 @@
 // The setup that all schemes share: study, duration, step, friction, start. Edits go to every scheme's document.
 
 import "../elements/number-field.js";
-import { element } from "../dom.js";
+import { choose, element } from "../dom.js";
 import { valueAt } from "../pointer.js";
 import { linear, logarithmic } from "../scale.js";
 import { strings } from "../strings/index.js";
@@ -67,7 +67,8 @@ export function buildSetup(container, { description, state, laboratory, resetAll
   });
 
   container.append(
-    element("div", { class: "study-row" }, element("label", { for: "study" }, strings.study), study),
+    // A form of its own: what Chromium goes over when the choice changes, which happens while a finger moves, is this form.
+    element("form", { class: "study-row" }, element("label", { for: "study" }, strings.study), study),
     help,
     ...fields.map(({ field }) => field),
     element("fieldset", { class: "choices" }, element("legend", {}, strings.start), starts.map(({ label }) => label)),
@@ -77,7 +78,7 @@ export function buildSetup(container, { description, state, laboratory, resetAll
   /** Refused texts stay unless `anew`. */
   return function show(anew = false) {
     const chosen = studyOf(description.studies, state);
-    study.value = chosen;
+    choose(study, chosen);
     // The same text anew would lay the controls out again.
     if (help.textContent !== strings.studyHelp[chosen]) {
       help.textContent = strings.studyHelp[chosen];

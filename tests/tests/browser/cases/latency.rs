@@ -86,6 +86,29 @@ fn drawn_while_dragged(page: &Page<'_>, field: &str) -> Result<[u64; 2]> {
     Ok(drawn)
 }
 
+/// Notes for each option that a script chooses how many fields its form has; those without a form share the page's.
+const NOTE_CHOICES: &str = "window.chosen = []; \
+    const { set, get } = Object.getOwnPropertyDescriptor(HTMLSelectElement.prototype, 'value'); \
+    Object.defineProperty(HTMLSelectElement.prototype, 'value', { get, set(value) { \
+        window.chosen.push(this.form?.elements.length ?? document.querySelectorAll('input, select').length); \
+        set.call(this, value); } })";
+
+/// Where a script chooses an option, Chromium goes over all fields of its form, in a process that takes as long as a run.
+pub fn a_move_does_not_make_the_browser_read_all_fields(bench: &Bench) -> Result<()> {
+    let page = Page::open(bench, Screen::Desktop)?;
+    page.run(NOTE_CHOICES, &[])?;
+    // To other studies than the paper's and back to it, with what follows when it is calm.
+    for step in [4, -4, 4] {
+        page.run_async(MOVE, &[json!(FRICTION), json!(step)])?;
+        page.ready()?;
+        std::thread::sleep(CALM);
+    }
+    let chosen: Vec<u32> = serde_json::from_value(page.run("return window.chosen", &[])?)?;
+    ensure!(chosen.len() == 3, "the study is chosen once a move: {chosen:?}");
+    ensure!(chosen.iter().all(|fields| *fields == 1), "fields beside the one chosen: {chosen:?}");
+    Ok(())
+}
+
 pub fn a_finger_that_never_rests_sees_results(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
     std::thread::sleep(CALM);

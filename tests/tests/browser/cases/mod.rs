@@ -75,6 +75,7 @@ pub const ALL: &[(&str, Case)] = &[
     ("screenshots", appearance::screenshots),
     ("a_slider_move_is_drawn_in_time", latency::a_slider_move_is_drawn_in_time),
     ("a_move_is_drawn_once", latency::a_move_is_drawn_once),
+    ("a_move_does_not_make_the_browser_read_all_fields", latency::a_move_does_not_make_the_browser_read_all_fields),
     ("where_a_processor_draws_arms_wait_for_rest", latency::where_a_processor_draws_arms_wait_for_rest),
     ("a_finger_that_never_rests_sees_results", latency::a_finger_that_never_rests_sees_results),
     (
