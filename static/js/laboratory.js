@@ -130,6 +130,8 @@ export class Laboratory extends EventTarget {
     }
     this.results[scheme] = { generation, scenario, report, elapsed_ms };
     this.#runs.set(scheme, scenario, rows, report.outcome === "completed");
+    // The simulation's module has a copy.
+    this.#pool.takeBack(rows);
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 

@@ -5,6 +5,8 @@
 
 const SILENCE_MS = 10_000;
 const ATTEMPTS = 2;
+/** Arrays that are kept for further runs: those of one change to all schemes. */
+const SPARES = 3;
 
 export class RunPool {
   #module;
@@ -13,6 +15,8 @@ export class RunPool {
   /** Scheme to waiting job; a replaced job keeps its place in the line. */
   #waiting = new Map();
   #jobs = 0;
+  /** Arrays that nobody reads any more, for the rows of further runs: a megabyte anew for each keeps the page's memory busy. */
+  #spares = [];
   #gaveUp = false;
   #watching;
 
@@ -50,6 +54,13 @@ export class RunPool {
     this.#dispatch();
   }
 
+  /** Takes back the rows of a run that nobody reads any more. */
+  takeBack(rows) {
+    if (this.#spares.length < SPARES) {
+      this.#spares.push(rows);
+    }
+  }
+
   /** Stops a scheme's run, waiting or under way. */
   stop(scheme) {
     const waiting = this.#waiting.get(scheme);
@@ -76,7 +87,8 @@ export class RunPool {
         this.#waiting.delete(next.scheme);
         slot.job = next;
         slot.heard = performance.now();
-        slot.worker.postMessage({ type: "run", job: next.id, scenario: next.scenario });
+        const spare = this.#spares.pop();
+        slot.worker.postMessage({ type: "run", job: next.id, scenario: next.scenario, spare }, spare ? [spare.buffer] : []);
       }
     }
   }

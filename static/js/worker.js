@@ -1,6 +1,6 @@
 // A worker: advances one run at a time in slices, so that between slices it can hear that the run is stale.
 //
-// In:  {type: "start", module} | {type: "run", job, scenario} | {type: "abandon", job, now}
+// In:  {type: "start", module} | {type: "run", job, scenario, spare} | {type: "abandon", job, now}
 // Out: {type: "ready"} | {type: "progress", job, progress, rows} | {type: "abandoned", job, progress}
 //      {type: "done", job, report, rows, elapsed_ms} | {type: "failed", job, message}
 
@@ -30,7 +30,8 @@ const breathe = () =>
     channel.port2.postMessage(null);
   });
 
-async function compute(job, scenario) {
+/** `spare` is undefined or an array that the rows may be written to. */
+async function compute(job, scenario, spare) {
   const start = performance.now();
   const run = new Run(scenario);
   try {
@@ -58,7 +59,7 @@ async function compute(job, scenario) {
         postMessage({ type: "progress", job, progress, rows }, [rows.buffer]);
       }
     }
-    const rows = run.rows();
+    const rows = run.rows(spare);
     const report = JSON.parse(run.report());
     postMessage({ type: "done", job, report, rows, elapsed_ms: performance.now() - start }, [rows.buffer]);
   } finally {
@@ -74,7 +75,7 @@ onmessage = async ({ data }) => {
     abandoned = { job: data.job, now: data.now };
   } else if (data.type === "run") {
     try {
-      await compute(data.job, data.scenario);
+      await compute(data.job, data.scenario, data.spare);
     } catch (error) {
       // The module may be in any state now; whoever started this worker replaces it.
       postMessage({ type: "failed", job: data.job, message: String(error?.message ?? error) });
