@@ -29,12 +29,13 @@ const RUN: &str = "const [scenario, done] = arguments; (async () => { \
 
 /// Runs all scenarios of a list in a pool of two workers of its own, as often as is said and a few times before to warm up;
 /// answers with the times in ms until the last has ended, hashed and measured, and its samples are there, and with the hashes.
+/// Their arrays are used again, as the page does.
 const STUDY: &str = "const [scenarios, warmUp, rounds, done] = arguments; (async () => { \
         const script = document.querySelector('script[type=module]').src; \
         const [{ RunPool }, { loadModule }] = await Promise.all(['pool.js', 'wasm.js'].map((file) => import(new URL(file, script)))); \
         const { module } = await loadModule(); let ended; const fail = (failure) => done(JSON.stringify(failure)); \
-        const pool = new RunPool(module, 2, { done: ({ scheme, report }) => ended(scheme, report.trajectory_hash), failed: fail, \
-            gaveUp: fail, progress() {}, stopped() {}, restarted() {} }); \
+        const pool = new RunPool(module, 2, { failed: fail, gaveUp: fail, progress() {}, stopped() {}, restarted() {}, \
+            done({ scheme, report, rows }) { pool.takeBack(rows); ended(scheme, report.trajectory_hash); } }); \
         const times = []; const hashes = {}; \
         for (let round = -warmUp; round < rounds; round += 1) { \
             const start = performance.now(); let left = scenarios.length; \
