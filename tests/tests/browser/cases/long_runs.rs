@@ -30,7 +30,8 @@ pub fn a_long_run_is_drawn_while_it_computes_and_can_be_stopped(bench: &Bench) -
 
 pub fn a_stopped_run_can_be_started_again(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
-    page.type_into(DURATION, "300")?;
+    // Long enough that it still runs when the button is pressed, however busy the machine: 300 s take half a second.
+    page.type_into(DURATION, "1000")?;
     page.wait_for("return document.querySelector('scheme-card[data-scheme=proposed]').dataset.outcome === 'running'")?;
     page.click(&format!("{} .stop", card("proposed")))?;
     page.ready()?;
