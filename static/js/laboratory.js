@@ -128,6 +128,9 @@ export class Laboratory extends EventTarget {
     if (this.#settleAside(scheme, ({ resolve }) => resolve({ report, rows }))) {
       return;
     }
+    if (this.#isPast(scheme, generation)) {
+      return;
+    }
     this.results[scheme] = { generation, scenario, report, elapsed_ms };
     this.#runs.set(scheme, scenario, rows, report.outcome === "completed");
     // The simulation's module has a copy.
@@ -135,8 +138,16 @@ export class Laboratory extends EventTarget {
     this.dispatchEvent(new CustomEvent("result", { detail: { scheme } }));
   }
 
+  /** Whether a newer run of the scheme has ended: it was stopped while it waited, and the older one did not hear of that in time. */
+  #isPast(scheme, generation) {
+    return generation < this.results[scheme]?.generation;
+  }
+
   failed({ scheme, generation, message }) {
     if (this.#settleAside(scheme, ({ reject }) => reject(new Error(message)))) {
+      return;
+    }
+    if (this.#isPast(scheme, generation)) {
       return;
     }
     this.results[scheme] = { generation, failure: message };
