@@ -77,9 +77,6 @@ fn fraction<T: Scalar>(depth: T, width: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
-    use crate::lanes::Neighbour;
-    use crate::scalar::Kernel;
 
     /// Paper's bounds for a parameter whose true value is 1: margins [−1e-4, 0] and [10, 10.1].
     fn projection() -> Projection<f64, 1> {
@@ -123,49 +120,42 @@ mod tests {
     }
 
     /// Four parameters of which each in turn is beyond a bound: the others in its vector have the bits that they have alone.
-    struct OneBeyond;
+    #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+    #[test]
+    fn one_parameter_beyond_its_bounds_leaves_its_neighbours_alone() {
+        use crate::lanes::Neighbour;
+        use crate::scalar::Kernel;
+        type Vector = <Neighbour as Scalar>::Pack;
 
-    impl Kernel for OneBeyond {
-        type Output = ();
+        struct OneBeyond;
 
-        fn run(self) {
-            fn examine<S: Scalar + Pack<T>, T: Scalar>() {
-                let numbers = |numbers: [f64; 4]| numbers.map(T::splat);
-                let p = Projection::<T, 4>::around(
-                    |k| [2.0, -2.0, 0.0, 5.0][k],
-                    T::splat(2.5),
-                    T::splat(1e-4),
-                    [T::splat(10.0), T::splat(10.5)],
-                );
+        impl Kernel for OneBeyond {
+            type Output = ();
+
+            fn run(self) {
+                let numbers = |numbers: [f64; 4]| numbers.map(Neighbour::splat);
+                let [strength, margin, soft, hard] = numbers([2.5, 1e-4, 10.0, 10.5]);
+                let nominal = |k: usize| [2.0, -2.0, 0.0, 5.0][k];
+                let p = Projection::<_, 4>::around(nominal, strength, margin, [soft, hard]);
                 let drive = numbers([3.0, -4.0, 5.0, -6.0]);
                 for (beyond, by) in [(0, -1.0), (1, -20.5), (2, 10.25), (3, 51.0)] {
                     let mut theta_hat = numbers([1.0, -1.0, 0.5, 2.0]);
-                    theta_hat[beyond] = T::splat(by);
-                    let mut together = [T::one(); 4];
-                    for from in (0..4).step_by(<S as Pack<T>>::WIDTH) {
-                        let load = |numbers: &[T; 4]| <S as Pack<T>>::load(&numbers[from..]);
-                        p.correction::<S>(from, load(&theta_hat), load(&drive)).store(&mut together[from..]);
+                    theta_hat[beyond] = Neighbour::splat(by);
+                    let mut together = numbers([1.0; 4]);
+                    for from in (0..4).step_by(<Vector as Pack<Neighbour>>::WIDTH) {
+                        let load = |numbers: &[Neighbour; 4]| <Vector as Pack<Neighbour>>::load(&numbers[from..]);
+                        p.correction(from, load(&theta_hat), load(&drive)).store(&mut together[from..]);
                     }
                     for k in 0..4 {
-                        let alone = p.correction::<T>(k, theta_hat[k], drive[k]);
-                        assert_eq!(
-                            together[k].lane(0).abs().to_bits(),
-                            alone.lane(0).abs().to_bits(),
-                            "θ̂{k}, {beyond} beyond"
-                        );
-                        assert_eq!(alone.lane(0) != 0.0, k == beyond, "θ̂{k}, {beyond} beyond");
+                        let alone = p.correction::<Neighbour>(k, theta_hat[k], drive[k]).lane(0);
+                        assert_eq!(together[k].lane(0).to_bits(), alone.to_bits(), "θ̂{k}, {beyond} beyond");
+                        assert_eq!(alone != 0.0, k == beyond, "θ̂{k}, {beyond} beyond");
                     }
                 }
             }
-            examine::<f64, f64>();
-            #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
-            examine::<<Neighbour as Scalar>::Pack, Neighbour>();
         }
-    }
 
-    #[test]
-    fn one_parameter_beyond_its_bounds_leaves_its_neighbours_alone() {
-        #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+        // Without the instructions it is never used.
         if Neighbour::is_here() {
             Neighbour::compiled(OneBeyond);
         }
