@@ -52,26 +52,29 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
         theta_hat: &[T],
         rate: &mut [T],
     ) {
-        let (w, theta_hat, rate) = (&memory[..P], &theta_hat[..P], &mut rate[..P]);
+        let (theta_hat, rate) = (&theta_hat[..P], &mut rate[..P]);
         if let Self::Mixed(mixing) = self {
+            let w = |k| PredictionMemory::<R, T, N, P>::w::<T>(memory, k);
             mixing.theta_hat_rate(w, |i, j| PredictionMemory::<R, T, N, P>::correlation(memory, i, j), rate);
             return;
         }
         let width = <T::Pack as Pack<T>>::WIDTH;
         unrolled!(P / width, n => {
             let from = n * width;
-            self.rate_from::<T::Pack>(from, w, gradient, theta_hat).store(&mut rate[from..]);
+            let w = PredictionMemory::<R, T, N, P>::w::<T::Pack>(memory, from);
+            self.rate_from(from, w, gradient, theta_hat).store(&mut rate[from..]);
         });
         for k in P / width * width..P {
-            rate[k] = self.rate_from::<T>(k, w, gradient, theta_hat);
+            let w = PredictionMemory::<R, T, N, P>::w::<T>(memory, k);
+            rate[k] = self.rate_from(k, w, gradient, theta_hat);
         }
     }
 
-    /// `θ̂'` of the parameters from the `k`th on that a pack `S` holds; not for [`Self::Mixed`].
+    /// `θ̂'` of the parameters from the `k`th on that a pack `S` holds, w being theirs; not for [`Self::Mixed`].
     #[inline(always)]
-    fn rate_from<S: Scalar + Pack<T>>(&self, k: usize, w: &[T], gradient: &SVector<T, P>, theta_hat: &[T]) -> S {
+    fn rate_from<S: Scalar + Pack<T>>(&self, k: usize, w: S, gradient: &SVector<T, P>, theta_hat: &[T]) -> S {
         let (repeat, load) = (<S as Pack<T>>::repeat, <S as Pack<T>>::load);
-        let (w, gradient) = (load(&w[k..]), load(&gradient.as_slice()[k..]));
+        let gradient = load(&gradient.as_slice()[k..]);
         match self {
             Self::Additive { gain, memory_gain } => {
                 -(repeat(*memory_gain) * w) - load(&gain.as_slice()[k..]) * gradient

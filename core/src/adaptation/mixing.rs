@@ -29,13 +29,18 @@ impl<const P: usize> Mixing<P> {
         Self { rate, floor, scale }
     }
 
-    /// `θ̂'` for a memory: w, and `z(i, j)` an entry of Z. Apart from the loops that it stands in, which seldom need it.
+    /// `θ̂'` for a memory: `w(k)` and `z(i, j)` are numbers of w and Z. Apart from the loops that it stands in, which seldom need it.
     #[cold]
-    pub(super) fn theta_hat_rate<T: Scalar>(&self, w: &[T], z: impl Fn(usize, usize) -> T, rate: &mut [T]) {
+    pub(super) fn theta_hat_rate<T: Scalar>(
+        &self,
+        w: impl Fn(usize) -> T,
+        z: impl Fn(usize, usize) -> T,
+        rate: &mut [T],
+    ) {
         let mut lanes = [SVector::<f64, P>::zeros(); 16];
         for (lane, found) in lanes.iter_mut().enumerate().take(T::LANES) {
             let matrix = SMatrix::<f64, P, P>::from_fn(|i, j| z(i, j).lane(lane));
-            *found = self.of_one(matrix, SVector::from_fn(|k, _| w[k].lane(lane)));
+            *found = self.of_one(matrix, SVector::from_fn(|k, _| w(k).lane(lane)));
         }
         for k in 0..P {
             rate[k] = T::from_lanes(|lane| lanes[lane.min(15)][k]);
@@ -102,7 +107,7 @@ mod tests {
         let mixing = Mixing::<2>::new(1.0, 1e-3, SVector::repeat(1.0));
         assert_eq!(mixing.of_one(SMatrix::zeros(), SVector::zeros()), SVector::<f64, 2>::zeros());
         let mut rate = [9.0; 2];
-        mixing.theta_hat_rate(&[1.0, 1.0], |_, _| 1.0, &mut rate);
+        mixing.theta_hat_rate(|_| 1.0, |_, _| 1.0, &mut rate);
         assert_eq!(rate, [0.0; 2], "of a singular memory nothing is learned");
     }
 }

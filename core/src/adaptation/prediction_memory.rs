@@ -11,7 +11,7 @@ use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
 
-/// The memory; its states are w, filled up with zeros to whole vectors, then the kept vectors of Z.
+/// The memory; its states are w in the layout's order, filled up with zeros to whole vectors, then the kept vectors of Z.
 #[derive(Debug, Clone, Copy)]
 pub struct PredictionMemory<R, T, const N: usize, const P: usize> {
     /// Gain γ of new errors.
@@ -168,8 +168,10 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     #[inline(always)]
     fn is_live(row: usize, g: usize) -> bool {
         let mut is_live = false;
-        for k in g * Self::WIDTH..P.min((g + 1) * Self::WIDTH) {
-            is_live |= R::LIVE[row][k];
+        for lane in 0..Self::WIDTH {
+            if let Some(k) = Self::LAYOUT.column(g, lane) {
+                is_live |= R::LIVE[row][k];
+            }
         }
         is_live
     }
@@ -179,8 +181,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     fn neighbours(g: usize, number: impl Fn(usize) -> T) -> T::Pack {
         let mut numbers = [T::zero(); MOST_PACKED];
         for lane in 0..Self::WIDTH {
-            if g * Self::WIDTH + lane < P {
-                numbers[lane] = number(g * Self::WIDTH + lane);
+            if let Some(k) = Self::LAYOUT.column(g, lane) {
+                numbers[lane] = number(k);
             }
         }
         T::Pack::load(&numbers)
@@ -191,12 +193,26 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     fn gathered(z: &[T], j: usize, g: usize) -> T::Pack {
         let mut at = [None; MOST_PACKED];
         for lane in 0..Self::WIDTH {
-            let column = g * Self::WIDTH + lane;
-            if column < P && Self::LAYOUT.at[j][column] != NONE {
+            if let Some(column) = Self::LAYOUT.column(g, lane)
+                && Self::LAYOUT.at[j][column] != NONE
+            {
                 at[lane] = Some(Self::LAYOUT.at[j][column]);
             }
         }
         T::Pack::gather(z, at)
+    }
+
+    /// w of as many parameters as a pack `S` holds, from the `k`th on.
+    #[inline(always)]
+    pub fn w<S: Pack<T>>(states: &[T], k: usize) -> S {
+        if Self::WIDTH == 1 {
+            return S::load(&states[k..]);
+        }
+        let mut at = [None; MOST_PACKED];
+        for lane in 0..S::WIDTH {
+            at[lane] = Some(Self::LAYOUT.place[k + lane]);
+        }
+        S::gather(&states[..Self::W], at)
     }
 
     /// Entry (i, j) of Z.
@@ -216,7 +232,9 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     /// Writes the states as snapshots hold them: w, then the live upper triangle of Z.
     pub fn write_plain(states: &[T], plain: &mut [T]) {
         let (w, z) = states.split_at(Self::W);
-        plain[..P].copy_from_slice(&w[..P]);
+        for k in 0..P {
+            plain[k] = w[Self::LAYOUT.place[k]];
+        }
         for (number, &(i, j)) in plain[P..].iter_mut().zip(R::PAIRS) {
             *number = Self::entry(z, i, j);
         }
@@ -226,7 +244,9 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     pub fn read_plain(plain: &[T], states: &mut [T]) {
         states.fill(T::zero());
         let (w, z) = states.split_at_mut(Self::W);
-        w[..P].copy_from_slice(&plain[..P]);
+        for k in 0..P {
+            w[Self::LAYOUT.place[k]] = plain[k];
+        }
         for (number, &(i, j)) in plain[P..].iter().zip(R::PAIRS) {
             z[Self::LAYOUT.at[i][j]] = *number;
             z[Self::LAYOUT.at[j][i]] = *number;

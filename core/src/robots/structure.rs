@@ -65,6 +65,23 @@ pub(super) const fn share_row<const N: usize, const P: usize>(live: &[[bool; P];
     false
 }
 
+/// How far a parameter is, by the rows where it is live, from one that is live everywhere, when the sets of rows are passed through
+/// one after the other and each differs from the one before by a row (a Gray code).
+pub(super) const fn turns_from_everywhere<const N: usize, const P: usize>(
+    live: &[[bool; P]; N],
+    column: usize,
+) -> usize {
+    // The place of a set in the code: each digit says whether an odd number of rows so far are in it.
+    let (mut own, mut everywhere, mut row) = (0, 0, 0);
+    while row < N {
+        own = 2 * own + ((own % 2 == 1) != live[row][column]) as usize;
+        everywhere = 2 * everywhere + (everywhere + 1) % 2;
+        row += 1;
+    }
+    // Downwards, and around.
+    (everywhere + (1 << N) - own) % (1 << N)
+}
+
 /// How many pairs `i <= j` of parameters share a row.
 pub const fn count_pairs<const N: usize, const P: usize>(live: &[[bool; P]; N]) -> usize {
     let mut count = 0;
@@ -111,5 +128,18 @@ mod tests {
     fn lists_follow_the_pattern() {
         assert_eq!(list_entries::<2, 3, { count_entries(&PATTERN) }>(&PATTERN), [(0, 0), (0, 2), (1, 1)]);
         assert_eq!(list_pairs::<2, 3, { count_pairs(&PATTERN) }>(&PATTERN), [(0, 0), (0, 2), (1, 1), (2, 2)]);
+    }
+
+    #[test]
+    fn from_one_set_of_rows_to_the_next_one_row_changes() {
+        let sets: Vec<[bool; 3]> = (0..8).map(|n| [n & 4 > 0, n & 2 > 0, n & 1 > 0]).collect();
+        let mut order: Vec<_> =
+            sets.iter().map(|set| (turns_from_everywhere(&set.map(|is_live| [is_live]), 0), set)).collect();
+        order.sort_unstable();
+        assert_eq!(order[0].1, &[true; 3]);
+        for n in 1..8 {
+            assert_eq!(order[n].0, n);
+            assert_eq!((0..3).filter(|&row| order[n].1[row] != order[n - 1].1[row]).count(), 1);
+        }
     }
 }

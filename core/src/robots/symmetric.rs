@@ -1,10 +1,11 @@
 //! Where the live numbers of a symmetric matrix such as `YᵀY` are kept, so that vector instructions find neighbours.
 //!
-//! The columns form groups as wide as a vector. Of each block that two groups make, the vectors `(i, group)` are kept: row i's
-//! numbers in that group's columns; what lies across is read from them one by one. With a width of 1 this is the upper
-//! triangle, row by row. All of it is computed while the program is compiled.
+//! The columns form groups as wide as a vector, put together of columns that are live in the same rows of Y or nearly so: their
+//! vectors of `YᵀY` have fewest zeros. Of each block that two groups make, the vectors `(i, group)` are kept: row i's numbers in
+//! that group's columns; what lies across is read from them one by one. With a width of 1 this is the upper triangle, row by
+//! row. All of it is computed while the program is compiled.
 
-use super::structure::share_row;
+use super::structure::{share_row, turns_from_everywhere};
 
 /// In place of an index: there is none.
 pub const NONE: usize = usize::MAX;
@@ -16,6 +17,10 @@ const MOST: usize = 324;
 pub struct SymmetricLayout<const P: usize> {
     /// Numbers in a vector.
     width: usize,
+    /// The columns, those of one group after those of another.
+    order: [usize; P],
+    /// Where each column is in that order.
+    pub place: [usize; P],
     /// Number of groups; the last may reach beyond the columns.
     pub groups: usize,
     /// The kept vectors `(row, group)`, in their order.
@@ -37,6 +42,8 @@ impl<const P: usize> SymmetricLayout<P> {
     pub const fn new<const N: usize>(live: &[[bool; P]; N], width: usize) -> Self {
         let mut layout = Self {
             width,
+            order: [NONE; P],
+            place: [NONE; P],
             groups: P.div_ceil(width),
             kept: [(NONE, NONE); MOST],
             kept_len: 0,
@@ -45,10 +52,39 @@ impl<const P: usize> SymmetricLayout<P> {
             whole_len: 0,
             at: [[NONE; P]; P],
         };
+        layout.arrange(live);
         layout.keep(live);
         layout.index();
         layout.list_whole(live);
         layout
+    }
+
+    /// Orders the columns: from those that are live in every row on, from one to the next by as few rows as can be. Of equals the
+    /// first comes first.
+    const fn arrange<const N: usize>(&mut self, live: &[[bool; P]; N]) {
+        let mut column = 0;
+        while column < P {
+            let (mut before, mut other) = (0, 0);
+            while other < P {
+                let is_before = if self.width == 1 {
+                    other < column
+                } else {
+                    let (its, own) = (turns_from_everywhere(live, other), turns_from_everywhere(live, column));
+                    its < own || (its == own && other < column)
+                };
+                before += is_before as usize;
+                other += 1;
+            }
+            self.order[before] = column;
+            self.place[column] = before;
+            column += 1;
+        }
+    }
+
+    /// The column that is number `n` of a group; `None` beyond the last.
+    #[inline(always)]
+    pub const fn column(&self, group: usize, n: usize) -> Option<usize> {
+        if group * self.width + n < P { Some(self.order[group * self.width + n]) } else { None }
     }
 
     /// Chooses the vectors of each block: its rows or its columns, whichever are fewer.
@@ -70,33 +106,38 @@ impl<const P: usize> SymmetricLayout<P> {
 
     /// How many rows of group `rows` are live anywhere in the columns of `group`.
     const fn count_rows<const N: usize>(&self, live: &[[bool; P]; N], rows: usize, group: usize) -> usize {
-        let (mut count, mut row) = (0, rows * self.width);
-        while row < (rows + 1) * self.width {
-            count += self.meets(live, row, group) as usize;
-            row += 1;
+        let (mut count, mut n) = (0, 0);
+        while n < self.width {
+            if let Some(row) = self.column(rows, n) {
+                count += self.meets(live, row, group) as usize;
+            }
+            n += 1;
         }
         count
     }
 
     const fn keep_rows<const N: usize>(&mut self, live: &[[bool; P]; N], rows: usize, group: usize) {
-        let mut row = rows * self.width;
-        while row < (rows + 1) * self.width {
-            if self.meets(live, row, group) {
+        let mut n = 0;
+        while n < self.width {
+            if let Some(row) = self.column(rows, n)
+                && self.meets(live, row, group)
+            {
                 self.kept[self.kept_len] = (row, group);
                 self.kept_as[row][group] = self.kept_len;
                 self.kept_len += 1;
             }
-            row += 1;
+            n += 1;
         }
     }
 
     /// Whether a row is live anywhere in the columns of `group`.
     const fn meets<const N: usize>(&self, live: &[[bool; P]; N], row: usize, group: usize) -> bool {
-        let (mut column, mut meets) = (group * self.width, false);
-        while column < (group + 1) * self.width {
-            // The last group may reach beyond the columns.
-            meets = meets || (row < P && column < P && share_row(live, row, column));
-            column += 1;
+        let (mut n, mut meets) = (0, false);
+        while n < self.width {
+            if let Some(column) = self.column(group, n) {
+                meets = meets || share_row(live, row, column);
+            }
+            n += 1;
         }
         meets
     }
@@ -105,8 +146,7 @@ impl<const P: usize> SymmetricLayout<P> {
         let mut n = 0;
         while n < self.kept_len * self.width {
             let (row, group) = self.kept[n / self.width];
-            let column = group * self.width + n % self.width;
-            if column < P {
+            if let Some(column) = self.column(group, n % self.width) {
                 self.at[row][column] = n;
                 // Its twin may be kept too, and is then found for itself.
                 if self.at[column][row] == NONE {
@@ -156,10 +196,15 @@ mod tests {
                 }
             }
             for (n, entries) in found.into_iter().enumerate() {
-                let ((row, group), column) = (layout.kept[n / width], layout.kept[n / width].1 * width + n % width);
+                let (row, group) = layout.kept[n / width];
                 prop_assert_eq!(layout.kept_as[row][group], n / width);
-                prop_assert!(entries.iter().all(|&entry| entry == (row, column) || entry == (column, row)));
-                prop_assert_eq!(entries.contains(&(row, column)), column < P, "row {} of group {}", row, group);
+                match layout.column(group, n % width) {
+                    Some(column) => {
+                        prop_assert!(entries.contains(&(row, column)), "row {} of group {}", row, group);
+                        prop_assert!(entries.iter().all(|&entry| entry == (row, column) || entry == (column, row)));
+                    }
+                    None => prop_assert!(entries.is_empty(), "row {} of group {}", row, group),
+                }
             }
         }
 
@@ -170,12 +215,23 @@ mod tests {
         ) {
             let layout = SymmetricLayout::<P>::new(&live, width);
             let is_live = |&(row, group): &(usize, usize)| {
-                (group * width..P.min((group + 1) * width)).any(|column| share_row(&live, row, column))
+                (0..width).filter_map(|n| layout.column(group, n)).any(|column| share_row(&live, row, column))
             };
             let groups = P.div_ceil(width);
             let expected: Vec<_> = (0..P).flat_map(|row| (0..groups).map(move |group| (row, group))).collect();
             let expected: Vec<_> = expected.into_iter().filter(is_live).collect();
             prop_assert_eq!(&layout.whole[..layout.whole_len], expected);
+        }
+
+        #[test]
+        fn every_column_has_a_place_of_its_own(
+            live in prop::array::uniform3(prop::array::uniform9(any::<bool>())),
+            width in 1..=4_usize,
+        ) {
+            let layout = SymmetricLayout::<P>::new(&live, width);
+            let columns: Vec<_> = (0..layout.groups * width).filter_map(|n| layout.column(n / width, n % width)).collect();
+            prop_assert!(layout.place.iter().enumerate().all(|(column, &place)| columns[place] == column));
+            prop_assert_eq!(columns.len(), P);
         }
 
         #[test]
@@ -187,15 +243,29 @@ mod tests {
         }
     }
 
-    /// Three rows meet one column: that column is kept, as a row of the other half.
+    /// Of four rows in the first group one meets the second, in all of its columns: it is kept, not they.
     #[test]
     fn the_shorter_way_across_a_block_is_kept() {
         let live: Pattern = [
-            [false, true, true, true, true, false, false, false, false],
-            [true, false, false, false, false, false, false, false, false],
             [false; P],
+            [true, true, true, true, false, false, false, false, false],
+            [false, false, false, true, true, true, true, true, false],
         ];
         let layout = SymmetricLayout::<P>::new(&live, 4);
-        assert_eq!(layout.kept[..layout.kept_len], [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (4, 1)]);
+        let order = |group| [0, 1, 2, 3].map(|n| layout.column(group, n));
+        assert_eq!([order(0), order(1)], [[0, 1, 2, 3].map(Some), [4, 5, 6, 7].map(Some)]);
+        let expected = [(0, 0), (1, 0), (2, 0), (3, 0), (3, 1), (4, 1), (5, 1), (6, 1), (7, 1)];
+        assert_eq!(layout.kept[..layout.kept_len], expected);
+    }
+
+    /// The arm's 126 live numbers would make 32 vectors; in the order of the parameters they make 50.
+    #[test]
+    fn the_arm_has_few_vectors() {
+        use crate::robots::{CrsA465, Robot};
+        let of_width = |width| {
+            let layout = SymmetricLayout::<18>::new(&<CrsA465 as Robot<3, 18>>::LIVE, width);
+            (layout.kept_len, layout.whole_len)
+        };
+        assert_eq!([1, 2, 4].map(of_width), [(126, 234), (68, 122), (42, 71)]);
     }
 }
