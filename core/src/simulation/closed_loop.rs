@@ -98,7 +98,6 @@ where
         let layout = self.layout();
         let position = SVector::<T, N>::from_column_slice(&x[..N]);
         let velocity = SVector::<T, N>::from_column_slice(&x[N..2 * N]);
-        let geometry = R::geometry(&position);
         let source_states = &x[layout.velocity_source..layout.theta_hat];
         let estimate = self.velocity_source.estimate(&position, &velocity, desired, source_states);
         let sliding = self.feedback.signals(&position, &estimate.velocity, desired);
@@ -109,6 +108,8 @@ where
             let [reference, velocity] = friction_sign.of_each([&sliding.reference_velocity, &velocity]);
             [reference, velocity, velocity]
         };
+        // After the hyperbolic tangents, which need nothing of it: the processor works on both at once.
+        let geometry = R::geometry(&position);
         let regressor = R::regressor(
             &geometry,
             &sliding.coriolis_velocity,

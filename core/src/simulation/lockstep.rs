@@ -5,7 +5,7 @@
 
 use super::recorder::Recorder;
 use super::run::exceeded_joint;
-use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, TRACKING_ERROR_LIMIT_RAD};
+use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD};
 use crate::integrators::{Aligned, Rk4};
 use crate::recording::Recording;
 use crate::scalar::{Kernel, Scalar};
@@ -26,6 +26,7 @@ pub(crate) trait Lockstep: Send {
 pub(crate) struct Lanes<T: Scalar> {
     system: Box<dyn StateSpace<T>>,
     settings: Settings,
+    step_times: StepTimes,
     rk4: Rk4<T>,
     /// Steps from one sample to the next.
     every: u64,
@@ -68,6 +69,7 @@ impl<T: Scalar> Lanes<T> {
         Some(Self {
             system,
             settings,
+            step_times: settings.step_times(),
             rk4: Rk4::new(len),
             every,
             state,
@@ -112,7 +114,7 @@ impl<T: Scalar> Lanes<T> {
             self.system.observe_and_derive(self.time_s, &self.state, &mut self.row, slope);
             self.record_row(false);
         }
-        let (system, end_s) = (&*self.system, self.settings.step_time_s(self.step + 1));
+        let (system, end_s) = (&*self.system, self.step_times.start_s(self.step + 1));
         system.foresee([Rk4::<T>::middle_s(self.time_s, end_s), end_s]);
         let derivative = |t: f64, x: &[T], rate: &mut [T]| system.derivative(t, x, rate);
         let finite = if is_sampled {

@@ -85,6 +85,21 @@ pub enum Method {
     Dopri5(Tolerances),
 }
 
+/// When fixed steps start. Their number is counted once, because it takes a division and a rounding.
+#[derive(Debug, Clone, Copy)]
+struct StepTimes {
+    step_s: f64,
+    duration_s: f64,
+    steps: u64,
+}
+
+impl StepTimes {
+    /// Time at which step `n` starts, s; the last step ends at the duration exactly.
+    fn start_s(&self, n: u64) -> f64 {
+        if n >= self.steps { self.duration_s } else { n as f64 * self.step_s }
+    }
+}
+
 /// How long, how fine, and how much of it to keep. Validated by the scenario.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
@@ -135,9 +150,9 @@ impl Settings {
         }
     }
 
-    /// Time at which fixed step `n` starts, s; the last step ends at the duration exactly.
-    pub fn step_time_s(&self, n: u64) -> f64 {
-        if n >= self.steps() { self.duration_s } else { n as f64 * self.step_s }
+    /// The times at which fixed steps start.
+    fn step_times(&self) -> StepTimes {
+        StepTimes { step_s: self.step_s, duration_s: self.duration_s, steps: self.steps() }
     }
 
     /// Steps per sample, where steps are fixed and every sample falls on the start of one.

@@ -1,7 +1,9 @@
 //! Advancing a run: steps, samples at their exact times, divergence, pause and resume.
 
 use super::recorder::Recorder;
-use super::{Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, TRACKING_ERROR_LIMIT_RAD};
+use super::{
+    Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD,
+};
 use crate::integrators::{Aligned, Dopri5, Rk4};
 use crate::recording::Recording;
 
@@ -39,6 +41,8 @@ pub struct Simulation {
     identity: String,
     system: Box<dyn StateSpace<f64>>,
     settings: Settings,
+    step_times: StepTimes,
+    most_steps: u64,
     stepper: Stepper,
     state: Aligned<f64>,
     /// Work space for the tracking error.
@@ -70,6 +74,8 @@ impl Simulation {
             identity,
             system,
             settings,
+            step_times: settings.step_times(),
+            most_steps: settings.most_steps(),
             stepper,
             state,
             error: vec![0.0; settings.columns.joints],
@@ -128,7 +134,7 @@ impl Simulation {
         }
         let time_belongs = match &self.stepper {
             Stepper::Rk4OnGrid { .. } | Stepper::Rk4 { .. } => {
-                snapshot.step <= settings.steps() && snapshot.time_s == settings.step_time_s(snapshot.step)
+                snapshot.step <= self.step_times.steps && snapshot.time_s == self.step_times.start_s(snapshot.step)
             }
             Stepper::Dopri5 { dopri5, .. } => {
                 (0.0..=settings.duration_s).contains(&snapshot.time_s) && dopri5.accepts_step(snapshot.next_step_s)
@@ -233,7 +239,7 @@ impl Simulation {
     /// One step, the check that it led somewhere sensible, and the samples on the way. A step that did not leaves no trace
     /// but its time: the state stays the last good one.
     fn take_step(&mut self) -> Result<(), Divergence> {
-        if self.step >= self.settings.most_steps() {
+        if self.step >= self.most_steps {
             return Err(Divergence::TooManySteps(self.step));
         }
         self.begin_step()?;
@@ -281,7 +287,7 @@ impl Simulation {
             *evaluations += 1;
             system.derivative(t, x, rate);
         };
-        let end_s = self.settings.step_time_s(self.step + 1);
+        let end_s = self.step_times.start_s(self.step + 1);
         match &mut self.stepper {
             Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
                 system.foresee([Rk4::<f64>::middle_s(start_s, end_s), end_s]);

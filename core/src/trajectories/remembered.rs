@@ -23,15 +23,18 @@ impl<T: Scalar, const N: usize> Remembered<T, N> {
     /// Desired motion at `time_s`: the same bits as the trajectory itself gives.
     #[inline(always)]
     pub fn at(&self, time_s: f64) -> Desired<T, N> {
-        for n in 0..self.times_s.len() {
-            if self.times_s[n].get().to_bits() == time_s.to_bits() {
-                return self.motions[n].get();
-            }
-        }
-        let desired = self.trajectory.at(time_s);
+        let remembered = self.times_s.iter().position(|at| at.get().to_bits() == time_s.to_bits());
+        // One place to read from, whether it was remembered or not: the compiler then reads each number when it is needed and keeps no
+        // copy of all, which would have to be written before it is read.
+        self.motions[remembered.unwrap_or_else(|| self.remember(time_s))].get()
+    }
+
+    /// Computes an instant in the place of the start; gives that place.
+    #[inline(always)]
+    fn remember(&self, time_s: f64) -> usize {
         self.times_s[0].set(time_s);
-        self.motions[0].set(desired);
-        desired
+        self.motions[0].set(self.trajectory.at(time_s));
+        0
     }
 
     /// Computes a step's middle and end together; the end of the step before stays, where this one starts.
