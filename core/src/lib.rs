@@ -30,6 +30,7 @@ pub mod robots;
 pub mod scalar;
 pub mod scenario;
 pub mod simulation;
+mod sum;
 pub mod trajectories;
 mod transcendental;
 mod unroll;

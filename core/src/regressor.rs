@@ -2,6 +2,7 @@
 
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
+use crate::sum::Sum;
 use crate::unroll::unrolled;
 use nalgebra::SVector;
 
@@ -12,13 +13,13 @@ where
     R: Robot<N, P>,
     T: Scalar,
 {
-    let mut torque = SVector::<T, N>::zeros();
+    let mut torque = [Sum::EMPTY; N];
     let theta = &theta[..P];
     unrolled!(R::ENTRIES.len(), n => {
         let (i, k) = R::ENTRIES[n];
-        torque[i] += y[(i, k)] * theta[k];
+        torque[i] = torque[i].plus(y[(i, k)] * theta[k]);
     });
-    torque
+    totals(&torque)
 }
 
 /// Gradient `Yᵀ s` that every adaptation law here descends along. Source: paper eq. (4), (9), (14).
@@ -28,16 +29,19 @@ where
     R: Robot<N, P>,
     T: Scalar,
 {
-    let mut gradient = SVector::<T, P>::zeros();
+    let mut gradient = [Sum::EMPTY; P];
     unrolled!(R::ENTRIES.len(), n => {
         let (i, k) = R::ENTRIES[n];
-        // The compiler may not drop a zero that a sum starts from.
-        let mut is_first = true;
-        for row in 0..i {
-            is_first &= !R::LIVE[row][k];
-        }
-        let term = y[(i, k)] * s[i];
-        gradient[k] = if is_first { term } else { gradient[k] + term };
+        gradient[k] = gradient[k].plus(y[(i, k)] * s[i]);
     });
-    gradient
+    totals(&gradient)
+}
+
+#[inline(always)]
+fn totals<T: Scalar, const K: usize>(sums: &[Sum<T>; K]) -> SVector<T, K> {
+    let mut totals = SVector::<T, K>::zeros();
+    for k in 0..K {
+        totals[k] = sums[k].total(T::zero());
+    }
+    totals
 }

@@ -7,6 +7,7 @@
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{NONE, Regressor, Robot, SymmetricLayout};
 use crate::scalar::{MOST_PACKED, Pack, Scalar};
+use crate::sum::Sum;
 use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
@@ -74,16 +75,13 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         }
         unrolled!(R::PAIRS.len(), n => {
             let (i, j) = R::PAIRS[n];
-            let mut product = T::zero();
-            let mut is_first = true;
+            let mut product = Sum::EMPTY;
             for row in 0..N {
                 if R::LIVE[row][i] && R::LIVE[row][j] {
-                    let term = filtered[(row, i)] * filtered[(row, j)];
-                    product = if is_first { term } else { product + term };
-                    is_first = false;
+                    product = product.plus(filtered[(row, i)] * filtered[(row, j)]);
                 }
             }
-            z_rate[n] = self.gain * product - self.forgetting * z[n];
+            z_rate[n] = self.gain * product.total(T::zero()) - self.forgetting * z[n];
             w_rate[i] += z[n] * theta_hat_rate[j];
             if i != j {
                 w_rate[j] += z[n] * theta_hat_rate[i];
@@ -106,16 +104,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         let mut rows = [[repeat(T::zero()); P]; N];
         let mut sum = [repeat(T::zero()); P];
         unrolled!(Self::LAYOUT.groups, g => {
-            let mut is_first = true;
+            let mut correlation = Sum::EMPTY;
             for row in 0..N {
                 if Self::is_live(row, g) {
                     rows[row][g] = Self::neighbours(g, |k| if R::LIVE[row][k] { filtered[(row, k)] } else { T::zero() });
-                    let term = rows[row][g] * repeat(prediction_error[row]);
-                    sum[g] = if is_first { term } else { sum[g] + term };
-                    is_first = false;
+                    correlation = correlation.plus(rows[row][g] * repeat(prediction_error[row]));
                 }
             }
-            sum[g] = gain * sum[g] - forgetting * T::Pack::load(&w[g * Self::WIDTH..]);
+            sum[g] = gain * correlation.total(repeat(T::zero())) - forgetting * T::Pack::load(&w[g * Self::WIDTH..]);
         });
         Self::add_rows(z, theta_hat_rate, &mut sum);
         unrolled!(Self::LAYOUT.groups, g => {
@@ -150,15 +146,13 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         let (z, z_rate) = (&z[..len], &mut z_rate[..len]);
         unrolled!(Self::LAYOUT.kept_len, n => {
             let (i, g) = Self::LAYOUT.kept[n];
-            let mut product = <T::Pack as Pack<T>>::repeat(T::zero());
-            let mut is_first = true;
+            let mut product = Sum::EMPTY;
             for row in 0..N {
                 if R::LIVE[row][i] && Self::is_live(row, g) {
-                    let term = <T::Pack as Pack<T>>::repeat(filtered[(row, i)]) * rows[row][g];
-                    product = if is_first { term } else { product + term };
-                    is_first = false;
+                    product = product.plus(<T::Pack as Pack<T>>::repeat(filtered[(row, i)]) * rows[row][g]);
                 }
             }
+            let product = product.total(<T::Pack as Pack<T>>::repeat(T::zero()));
             let z = T::Pack::load(&z[n * Self::WIDTH..]);
             (gain * product - forgetting * z).store(&mut z_rate[n * Self::WIDTH..]);
         });

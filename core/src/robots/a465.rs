@@ -7,6 +7,7 @@
 use super::structure::{count_entries, count_pairs, list_entries, list_pairs, pattern_to_live};
 use super::{INERTIA, Parameter, Regressor, Robot, RobotData, RobotKind, TORQUE, VISCOUS};
 use crate::scalar::Scalar;
+use crate::sum::Sum;
 use nalgebra::{SMatrix, SVector};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -62,27 +63,16 @@ struct Factors<T> {
     gamma3: Option<T>,
 }
 
-/// A sum of coefficients times factors, in their order, of which only those that have a part cost anything.
-#[derive(Clone, Copy)]
-struct Sum<T>(Option<T>);
-
-impl<T: Scalar> Sum<T> {
-    const EMPTY: Self = Self(None);
-
-    #[inline(always)]
-    fn plus(self, coefficient: T, factor: Option<T>) -> Self {
-        let Some(factor) = factor else { return self };
-        let term = coefficient * factor;
-        Self(Some(match self.0 {
-            Some(sum) => sum + term,
-            None => term,
-        }))
+/// Coefficients times factors, added in their order; only those that have a part cost anything.
+#[inline(always)]
+fn weighed<T: Scalar, const K: usize>(terms: [(T, Option<T>); K]) -> T {
+    let mut sum = Sum::EMPTY;
+    for n in 0..K {
+        if let (coefficient, Some(factor)) = terms[n] {
+            sum = sum.plus(coefficient * factor);
+        }
     }
-
-    #[inline(always)]
-    fn total(self) -> T {
-        self.0.unwrap_or(T::zero())
-    }
+    sum.total(T::zero())
 }
 
 impl<T: Scalar> Factors<T> {
@@ -130,24 +120,23 @@ impl<T: Scalar> Factors<T> {
 
     #[inline(always)]
     fn row1(&self, h: T, alpha: T, beta: T) -> T {
-        Sum::EMPTY.plus(h, self.h).plus(alpha, self.alpha).plus(beta, self.beta).total()
+        weighed([(h, self.h), (alpha, self.alpha), (beta, self.beta)])
     }
 
     #[inline(always)]
     fn row2(&self, h22: T, h23: T, alpha: T, gamma: T) -> T {
-        let inertia = Sum::EMPTY.plus(h22, self.second).plus(h23, self.third);
-        inertia.plus(alpha, self.centrifugal).plus(gamma, self.gamma2).total()
+        weighed([(h22, self.second), (h23, self.third), (alpha, self.centrifugal), (gamma, self.gamma2)])
     }
 
     #[inline(always)]
     fn row3(&self, h23: T, beta: T, gamma: T) -> T {
-        Sum::EMPTY.plus(h23, self.second).plus(beta, self.centrifugal).plus(gamma, self.gamma3).total()
+        weighed([(h23, self.second), (beta, self.centrifugal), (gamma, self.gamma3)])
     }
 
     /// What one coefficient adds, turned by the waist's speed.
     #[inline(always)]
     fn turned(&self, coefficient: T) -> T {
-        Sum::EMPTY.plus(coefficient, self.centrifugal).total()
+        weighed([(coefficient, self.centrifugal)])
     }
 
     /// The ten inertia columns.
@@ -156,8 +145,8 @@ impl<T: Scalar> Factors<T> {
         let zero = T::zero();
         let mut y = Regressor::<T, N, P>::zeros();
         y[(0, 0)] = self.row1(g.h1, g.alpha_beta1, g.alpha_beta1);
-        y[(0, 2)] = Sum::EMPTY.plus(g.h3, self.h).plus(g.alpha3, self.alpha).total();
-        y[(0, 3)] = Sum::EMPTY.plus(g.h4, self.h).plus(g.alpha4, self.alpha).total();
+        y[(0, 2)] = weighed([(g.h3, self.h), (g.alpha3, self.alpha)]);
+        y[(0, 3)] = weighed([(g.h4, self.h), (g.alpha4, self.alpha)]);
         y[(0, 4)] = self.row1(g.h5, g.alpha5, g.beta5);
         y[(0, 5)] = self.row1(g.h6, g.alpha_beta6, g.alpha_beta6);
         y[(0, 6)] = self.row1(g.h7, g.alpha7, g.beta7);
