@@ -1,6 +1,7 @@
 //! What a figure's export menu saves: a picture of the screen's pixels, a drawing, every sample of each run.
 
 use crate::bench::Bench;
+use crate::native::{edited, field_value, slide};
 use crate::page::{Page, Screen};
 use adaptarm_core::scenario::{Scenario, Scheme};
 use anyhow::{Context, Result, ensure};
@@ -54,6 +55,36 @@ pub fn a_figure_is_saved_as_shown(bench: &Bench) -> Result<()> {
     let svg = String::from_utf8(saved(&folder, "adaptarm-tracking-errors-0.000s-to-8.000s-dark.svg")?)?;
     let text = drawing(&page, &svg)?["text"].as_str().unwrap_or_default().to_owned();
     ensure!(text.contains("Tang") && !text.contains("Slotine"), "the drawing does not show what the page does: {text}");
+    Ok(())
+}
+
+/// Workers write samples into arrays that earlier runs are done with; what is saved then must be the last run's, all of it.
+pub fn samples_in_used_arrays_are_those_of_the_last_run(bench: &Bench) -> Result<()> {
+    const FRICTION: &str = "/plant/friction/width_rad_s";
+    let page = Page::open(bench, Screen::Desktop)?;
+    let folder = accept_downloads(&page)?;
+    let count = "window.usedArrays = 0; const post = Worker.prototype.postMessage; \
+        Worker.prototype.postMessage = function (message, ...rest) { \
+            if (message.spare) { window.usedArrays += 1 } \
+            return post.call(this, message, ...rest); \
+        }";
+    page.run(count, &[])?;
+    let field = format!("#setup [data-pointer=\"{FRICTION}\"]");
+    for position in [10, -20, 30, -40] {
+        slide(&page, &field, position)?;
+    }
+    let used = page.run("return window.usedArrays", &[])?;
+    ensure!(used.as_u64() >= Some(6), "of twelve runs {used} wrote into arrays that were there");
+    let friction = field_value(&page, &field)?;
+    for scheme in Scheme::ALL {
+        let menu = "#figures [data-figure=tracking_errors] .figure-export";
+        page.click(&format!("{menu} > button"))?;
+        page.click(&format!("{menu} [aria-label=\"{} as CSV\"]", scheme.name()))?;
+        let name = format!("adaptarm-{}-samples.csv", scheme.name().to_lowercase().replace(' ', "-"));
+        let csv = String::from_utf8(saved(&folder, &name)?)?;
+        let expected = Scenario::read(&edited(scheme, &[(FRICTION, friction)])?)?.run().recording.to_csv();
+        ensure!(csv == expected, "{name} is not of the run with a friction width of {friction} rad/s");
+    }
     Ok(())
 }
 

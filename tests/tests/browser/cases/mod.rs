@@ -69,6 +69,7 @@ pub const ALL: &[(&str, Case)] = &[
     ("figures_stay_sharp_at_any_pixel_ratio", figures::figures_stay_sharp_at_any_pixel_ratio),
     ("a_spike_of_one_sample_is_seen", figures::a_spike_of_one_sample_is_seen),
     ("a_figure_is_saved_as_shown", exports::a_figure_is_saved_as_shown),
+    ("samples_in_used_arrays_are_those_of_the_last_run", exports::samples_in_used_arrays_are_those_of_the_last_run),
     ("the_paper_s_figures_of_estimates_are_saved", exports::the_paper_s_figures_of_estimates_are_saved),
     ("the_export_menu_opens_and_closes_by_keyboard", exports::the_menu_opens_and_closes_by_keyboard),
     ("every_colour_of_text_has_enough_contrast", appearance::every_colour_of_text_has_enough_contrast),
