@@ -16,12 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 pub fn a_figure_is_saved_as_shown(bench: &Bench) -> Result<()> {
     let page = Page::open(bench, Screen::Desktop)?;
     let folder = accept_downloads(&page)?;
-    let menu = "#figures [data-figure=tracking_errors] .figure-export";
-    let save = |label: &str| -> Result<()> {
-        page.click(&format!("{menu} > button"))?;
-        page.click(&format!("{menu} [aria-label=\"{label}\"]"))
-    };
-    save("Joint tracking errors as PNG")?;
+    save(&page, "Joint tracking errors as PNG")?;
     let png = saved(&folder, "adaptarm-tracking-errors-light.png")?;
     let size = page.run(
         "const { width, height } = document.querySelector('#figures [data-figure=tracking_errors] canvas'); \
@@ -31,19 +26,13 @@ pub fn a_figure_is_saved_as_shown(bench: &Bench) -> Result<()> {
     let number = |at: usize| -> Result<u32> { Ok(u32::from_be_bytes(png[at..at + 4].try_into()?)) };
     ensure!(png.starts_with(b"\x89PNG") && json!([number(16)?, number(20)?]) == size, "the PNG is not {size} pixels");
 
-    save("Joint tracking errors as SVG")?;
+    save(&page, "Joint tracking errors as SVG")?;
     let svg = String::from_utf8(saved(&folder, "adaptarm-tracking-errors-light.svg")?)?;
     let seen = drawing(&page, &svg)?;
     ensure!(seen["root"] == "svg" && seen["curves"].as_u64() >= Some(9), "the drawing holds {seen}");
     ensure!(seen["text"].as_str().is_some_and(|text| text.contains("Slotine and Li")), "the drawing says {seen}");
 
-    for scheme in Scheme::ALL {
-        save(&format!("{} as CSV", scheme.name()))?;
-        let name = format!("adaptarm-{}-samples.csv", scheme.name().to_lowercase().replace(' ', "-"));
-        let csv = String::from_utf8(saved(&folder, &name)?)?;
-        let expected = Scenario::new(scheme.paper())?.run().recording.to_csv();
-        ensure!(csv == expected, "{name} is not what the core writes: {}", csv.lines().next().unwrap_or_default());
-    }
+    expect_samples(&page, &folder, &[])?;
 
     // What is saved is what is shown: dark, zoomed and with one scheme less.
     page.click("#theme-toggle")?;
@@ -51,7 +40,7 @@ pub fn a_figure_is_saved_as_shown(bench: &Bench) -> Result<()> {
     page.run("document.querySelector('#figures [data-figure=tracking_errors] .figure-overlay').focus()", &[])?;
     page.press("+")?;
     page.ready()?;
-    save("Joint tracking errors as SVG")?;
+    save(&page, "Joint tracking errors as SVG")?;
     let svg = String::from_utf8(saved(&folder, "adaptarm-tracking-errors-0.000s-to-8.000s-dark.svg")?)?;
     let text = drawing(&page, &svg)?["text"].as_str().unwrap_or_default().to_owned();
     ensure!(text.contains("Tang") && !text.contains("Slotine"), "the drawing does not show what the page does: {text}");
@@ -76,16 +65,27 @@ pub fn samples_in_used_arrays_are_those_of_the_last_run(bench: &Bench) -> Result
     let used = page.run("return window.usedArrays", &[])?;
     ensure!(used.as_u64() >= Some(6), "of twelve runs {used} wrote into arrays that were there");
     let friction = field_value(&page, &field)?;
+    expect_samples(&page, &folder, &[(FRICTION, friction)])
+}
+
+/// Saves every scheme's samples from the menu of the tracking errors; they must be what the core writes for the paper's scenario with `edits`.
+fn expect_samples(page: &Page<'_>, folder: &TempDir, edits: &[(&str, f64)]) -> Result<()> {
     for scheme in Scheme::ALL {
-        let menu = "#figures [data-figure=tracking_errors] .figure-export";
-        page.click(&format!("{menu} > button"))?;
-        page.click(&format!("{menu} [aria-label=\"{} as CSV\"]", scheme.name()))?;
+        save(page, &format!("{} as CSV", scheme.name()))?;
         let name = format!("adaptarm-{}-samples.csv", scheme.name().to_lowercase().replace(' ', "-"));
-        let csv = String::from_utf8(saved(&folder, &name)?)?;
-        let expected = Scenario::read(&edited(scheme, &[(FRICTION, friction)])?)?.run().recording.to_csv();
-        ensure!(csv == expected, "{name} is not of the run with a friction width of {friction} rad/s");
+        let csv = String::from_utf8(saved(folder, &name)?)?;
+        let expected = Scenario::read(&edited(scheme, edits)?)?.run().recording.to_csv();
+        let head = csv.lines().next().unwrap_or_default();
+        ensure!(csv == expected, "{name} is not what the core writes with {edits:?}: {head}");
     }
     Ok(())
+}
+
+/// Saves something from the menu of the tracking errors.
+fn save(page: &Page<'_>, label: &str) -> Result<()> {
+    let menu = "#figures [data-figure=tracking_errors] .figure-export";
+    page.click(&format!("{menu} > button"))?;
+    page.click(&format!("{menu} [aria-label=\"{label}\"]"))
 }
 
 pub fn the_paper_s_figures_of_estimates_are_saved(bench: &Bench) -> Result<()> {
