@@ -199,9 +199,6 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     /// w of as many parameters as a pack `S` holds, from the `k`th on.
     #[inline(always)]
     pub fn w<S: Pack<T>>(states: &[T], k: usize) -> S {
-        if Self::WIDTH == 1 {
-            return S::load(&states[k..]);
-        }
         let mut at = [None; MOST_PACKED];
         for lane in 0..S::WIDTH {
             at[lane] = Some(Self::LAYOUT.place[k + lane]);
