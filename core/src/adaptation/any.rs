@@ -64,9 +64,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         }
     }
 
+    type Begun = ();
+
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+
     #[inline(always)]
     fn derivative(
         &self,
+        _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],
         theta_hat_rate: &mut [T],
@@ -74,10 +79,10 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
     ) {
         match self {
             Self::None => theta_hat_rate.fill(T::zero()),
-            Self::Gradient(law) => law.derivative(input, states, theta_hat_rate, states_rate),
-            Self::Composite(law) => law.derivative(input, states, theta_hat_rate, states_rate),
-            Self::LeastSquares(law) => law.derivative(input, states, theta_hat_rate, states_rate),
-            Self::Concurrent(law) => law.derivative(input, states, theta_hat_rate, states_rate),
+            Self::Gradient(law) => law.derivative(None, input, states, theta_hat_rate, states_rate),
+            Self::Composite(law) => law.derivative(None, input, states, theta_hat_rate, states_rate),
+            Self::LeastSquares(law) => law.derivative(None, input, states, theta_hat_rate, states_rate),
+            Self::Concurrent(law) => law.derivative(None, input, states, theta_hat_rate, states_rate),
         }
     }
 }

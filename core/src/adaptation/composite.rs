@@ -4,7 +4,8 @@
 //! the projection of eq. (19), (20). The memory is the same in both.
 
 use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, Mixing, PredictionMemory, Projection};
-use crate::robots::Robot;
+use crate::regressor::model_torque;
+use crate::robots::{Regressor, Robot};
 use crate::scalar::{Pack, Scalar};
 use crate::unroll::unrolled;
 use nalgebra::SVector;
@@ -121,18 +122,42 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         memory.fill(T::zero());
     }
 
+    /// `Yf`, one by one and in packs.
+    type Begun = (Regressor<T, N, P>, [[T::Pack; P]; N]);
+
+    #[inline(always)]
+    fn begin(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        sign_velocity: &SVector<T, N>,
+        states: &[T],
+        states_rate: Option<&mut [T]>,
+    ) -> Self::Begun {
+        let (filter, memory) = states.split_at(Self::MEMORY);
+        let filtered = self.filter.regressor(geometry, velocity, filter);
+        let rows = PredictionMemory::<R, T, N, P>::rows(&filtered);
+        if let Some(rate) = states_rate {
+            let (filter_rate, memory_rate) = rate.split_at_mut(Self::MEMORY);
+            self.filter.regressor_rate(geometry, velocity, sign_velocity, &filtered, filter_rate);
+            self.memory.correlation_rate(&filtered, &rows, memory, memory_rate);
+        }
+        (filtered, rows)
+    }
+
     #[inline(always)]
     fn derivative(
         &self,
+        begun: Option<Self::Begun>,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        if T::IS_PLAIN {
+        if T::IS_PLAIN && begun.is_none() {
             self.derivative_apart(input, states, theta_hat_rate, states_rate);
         } else {
-            self.derivative_within(input, states, theta_hat_rate, states_rate);
+            self.derivative_within(begun, input, states, theta_hat_rate, states_rate);
         }
     }
 }
@@ -150,22 +175,29 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        self.derivative_within(input, states, theta_hat_rate, states_rate);
+        self.derivative_within(None, input, states, theta_hat_rate, states_rate);
     }
 
     #[inline(always)]
     fn derivative_within(
         &self,
+        begun: Option<<Self as AdaptationLaw<R, T, N, P>>::Begun>,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
+        let (filtered, rows) = if let Some(begun) = begun {
+            begun
+        } else {
+            let AdaptationInput { geometry, velocity, sign_velocity, .. } = input;
+            self.begin(geometry, velocity, sign_velocity, states, Some(&mut *states_rate))
+        };
         let (filter, memory) = states.split_at(Self::MEMORY);
         let (filter_rate, memory_rate) = states_rate.split_at_mut(Self::MEMORY);
-        let (filtered, filtered_torque) =
-            self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
+        let filtered_torque = self.filter.torque(input.torque, filter, filter_rate);
         self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
-        self.memory.derivative(&filtered, &filtered_torque, input.theta_hat, theta_hat_rate, memory, memory_rate);
+        let prediction_error = model_torque::<R, T, N, P>(&filtered, input.theta_hat) - filtered_torque;
+        self.memory.derivative(&filtered, &rows, &prediction_error, theta_hat_rate, memory, memory_rate);
     }
 }

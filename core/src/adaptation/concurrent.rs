@@ -121,8 +121,13 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         stack.fill(T::zero());
     }
 
+    type Begun = ();
+
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+
     fn derivative(
         &self,
+        _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],
         theta_hat_rate: &mut [T],

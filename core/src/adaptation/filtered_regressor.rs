@@ -45,13 +45,21 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         velocity: &SVector<T, N>,
         states: &[T],
     ) -> (Regressor<T, N, P>, SVector<T, N>) {
+        let tau_f = &states[R::ENTRIES.len()..Self::STATES];
+        (self.regressor(geometry, velocity, states), SVector::from_column_slice(tau_f))
+    }
+
+    /// Filtered regressor `Yf`. Source: paper eq. (10) to (12).
+    #[inline(always)]
+    pub fn regressor(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &[T]) -> Regressor<T, N, P> {
         let momentum = R::momentum_regressor(geometry, velocity);
-        let (x, tau_f) = states[..Self::STATES].split_at(R::ENTRIES.len());
+        let x = &states[..R::ENTRIES.len()];
         let mut filtered = Regressor::<T, N, P>::zeros();
-        for (x, &entry) in x.iter().zip(R::ENTRIES) {
-            filtered[entry] = self.filtered(&momentum, entry, *x);
-        }
-        (filtered, SVector::from_column_slice(tau_f))
+        unrolled!(R::ENTRIES.len(), n => {
+            let entry = R::ENTRIES[n];
+            filtered[entry] = self.filtered(&momentum, entry, x[n]);
+        });
+        filtered
     }
 
     /// An entry of `Yf = λf P + x`.
@@ -60,7 +68,36 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         if R::MOMENTUM_LIVE[row][column] { self.bandwidth * momentum[(row, column)] + x } else { x }
     }
 
-    /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative. Source: paper eq. (10) to (12).
+    /// Writes `x' = λf (B − Yf)`, given `Yf`. Source: paper eq. (10) to (12).
+    #[inline(always)]
+    pub fn regressor_rate(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        sign_velocity: &SVector<T, N>,
+        filtered: &Regressor<T, N, P>,
+        rate: &mut [T],
+    ) {
+        let balance = R::balance_regressor(geometry, velocity, sign_velocity);
+        let x_rate = &mut rate[..R::ENTRIES.len()];
+        unrolled!(R::ENTRIES.len(), n => {
+            let entry = R::ENTRIES[n];
+            x_rate[n] = self.bandwidth * (balance[entry] - filtered[entry]);
+        });
+    }
+
+    /// Filtered torque `τf` (N·m), and writes `τf' = λf (τ − τf)`. Source: paper eq. (10).
+    #[inline(always)]
+    pub fn torque(&self, torque: &SVector<T, N>, states: &[T], rate: &mut [T]) -> SVector<T, N> {
+        let tau_f = &states[R::ENTRIES.len()..Self::STATES];
+        let tau_f_rate = &mut rate[R::ENTRIES.len()..Self::STATES];
+        for i in 0..N {
+            tau_f_rate[i] = self.bandwidth * (torque[i] - tau_f[i]);
+        }
+        SVector::from_column_slice(tau_f)
+    }
+
+    /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative.
     #[inline(always)]
     pub fn advance(
         &self,
@@ -71,19 +108,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         states: &[T],
         rate: &mut [T],
     ) -> (Regressor<T, N, P>, SVector<T, N>) {
-        let momentum = R::momentum_regressor(geometry, velocity);
-        let balance = R::balance_regressor(geometry, velocity, sign_velocity);
-        let (x, tau_f) = states[..Self::STATES].split_at(R::ENTRIES.len());
-        let (x_rate, tau_f_rate) = rate[..Self::STATES].split_at_mut(R::ENTRIES.len());
-        let mut filtered = Regressor::<T, N, P>::zeros();
-        unrolled!(R::ENTRIES.len(), n => {
-            let entry = R::ENTRIES[n];
-            filtered[entry] = self.filtered(&momentum, entry, x[n]);
-            x_rate[n] = self.bandwidth * (balance[entry] - filtered[entry]);
-        });
-        for i in 0..N {
-            tau_f_rate[i] = self.bandwidth * (torque[i] - tau_f[i]);
-        }
-        (filtered, SVector::from_column_slice(tau_f))
+        let filtered = self.regressor(geometry, velocity, states);
+        self.regressor_rate(geometry, velocity, sign_velocity, &filtered, rate);
+        (filtered, self.torque(torque, states, rate))
     }
 }

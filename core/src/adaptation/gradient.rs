@@ -22,9 +22,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     fn initialize(&self, _geometry: &R::Geometry<T>, _velocity: &SVector<T, N>, _states: &mut [T]) {}
 
+    type Begun = ();
+
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+
     #[inline(always)]
     fn derivative(
         &self,
+        _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
         _states: &[T],
         theta_hat_rate: &mut [T],

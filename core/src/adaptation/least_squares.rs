@@ -83,9 +83,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         }
     }
 
+    type Begun = ();
+
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+
     #[inline(always)]
     fn derivative(
         &self,
+        _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],
         theta_hat_rate: &mut [T],

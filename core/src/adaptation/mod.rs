@@ -71,9 +71,24 @@ pub trait AdaptationLaw<R: Robot<N, P>, T: Scalar, const N: usize, const P: usiz
     /// Writes the initial states for a start at this configuration and velocity v*.
     fn initialize(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]);
 
-    /// Writes `θ̂'` and the states' derivative.
+    /// What [`Self::begin`] hands to [`Self::derivative`]; nothing where a law has nothing to begin.
+    type Begun: Copy;
+
+    /// The part of the states' derivative that needs neither torque nor gradient, at this configuration and velocity v*: the
+    /// processor can work on it while both are still being computed. Writes nothing without `states_rate`.
+    fn begin(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        sign_velocity: &SVector<T, N>,
+        states: &[T],
+        states_rate: Option<&mut [T]>,
+    ) -> Self::Begun;
+
+    /// Writes `θ̂'` and the states' derivative, or what is left of it where that has been begun.
     fn derivative(
         &self,
+        begun: Option<Self::Begun>,
         input: &AdaptationInput<'_, R, T, N, P>,
         states: &[T],
         theta_hat_rate: &mut [T],

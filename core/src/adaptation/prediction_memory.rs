@@ -4,7 +4,7 @@
 //! `w = Z (θ̂ − θ)` as long as `τf = Yf θ`. Tang and Arteaga's g is the same w (their eq. prints `Γ1 Z`, right only for a
 //! scalar Γ1). Z is symmetric and has zeros: [`SymmetricLayout`] says which of its numbers are kept and where.
 
-use crate::regressor::{gradient, model_torque};
+use crate::regressor::gradient;
 use crate::robots::{NONE, Regressor, Robot, SymmetricLayout};
 use crate::scalar::{MOST_PACKED, Pack, Scalar};
 use crate::sum::Sum;
@@ -37,25 +37,56 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     /// Number of states without what is kept for vectors only.
     pub const PLAIN_STATES: usize = P + R::PAIRS.len();
 
-    /// Writes `w'` and `Z'`, given `Yf`, `τf`, θ̂ and its rate. Source: paper eq. (16) to (18).
+    /// `Yf` in packs, row by row: its columns in the layout's groups. Only filled in where packs hold more than a number.
+    #[inline(always)]
+    pub fn rows(filtered: &Regressor<T, N, P>) -> [[T::Pack; P]; N] {
+        let mut rows = [[<T::Pack as Pack<T>>::repeat(T::zero()); P]; N];
+        if Self::WIDTH > 1 {
+            unrolled!(Self::LAYOUT.groups, g => {
+                for row in 0..N {
+                    if Self::is_live(row, g) {
+                        rows[row][g] =
+                            Self::neighbours(g, |k| if R::LIVE[row][k] { filtered[(row, k)] } else { T::zero() });
+                    }
+                }
+            });
+        }
+        rows
+    }
+
+    /// Writes `Z'`, given `Yf` and what [`Self::rows`] made of it, where packs hold more than a number; elsewhere
+    /// [`Self::derivative`] does. Source: paper eq. (18).
+    #[inline(always)]
+    pub fn correlation_rate(
+        &self,
+        filtered: &Regressor<T, N, P>,
+        rows: &[[T::Pack; P]; N],
+        states: &[T],
+        rate: &mut [T],
+    ) {
+        if Self::WIDTH > 1 {
+            self.write_kept(filtered, rows, &states[Self::W..Self::STATES], &mut rate[Self::W..Self::STATES]);
+        }
+    }
+
+    /// Writes `w'` and what [`Self::correlation_rate`] left of `Z'`, given `Yf`, its rows, `ε` and θ̂'. Source: paper eq. (16) to (18).
     #[inline(always)]
     pub fn derivative(
         &self,
         filtered: &Regressor<T, N, P>,
-        filtered_torque: &SVector<T, N>,
-        theta_hat: &[T],
+        rows: &[[T::Pack; P]; N],
+        prediction_error: &SVector<T, N>,
         theta_hat_rate: &[T],
         states: &[T],
         rate: &mut [T],
     ) {
-        let prediction_error = model_torque::<R, T, N, P>(filtered, theta_hat) - filtered_torque;
         let (w, z) = states[..Self::STATES].split_at(Self::W);
         let (w_rate, z_rate) = rate[..Self::STATES].split_at_mut(Self::W);
         let theta_hat_rate = &theta_hat_rate[..P];
         if Self::WIDTH == 1 {
-            self.number_by_number(filtered, &prediction_error, theta_hat_rate, (w, z), (w_rate, z_rate));
+            self.number_by_number(filtered, prediction_error, theta_hat_rate, (w, z), (w_rate, z_rate));
         } else {
-            self.vector_by_vector(filtered, &prediction_error, theta_hat_rate, (w, z), (w_rate, z_rate));
+            self.vector_by_vector(rows, prediction_error, theta_hat_rate, (w, z), w_rate);
         }
     }
 
@@ -89,25 +120,23 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         });
     }
 
-    /// The same sums, each in the same order, for neighbouring parameters at once (docs/decisions/0021-neighbours.md).
+    /// The same sums of `w'`, each in the same order, for neighbouring parameters at once (docs/decisions/0021-neighbours.md).
     #[inline(always)]
     fn vector_by_vector(
         &self,
-        filtered: &Regressor<T, N, P>,
+        rows: &[[T::Pack; P]; N],
         prediction_error: &SVector<T, N>,
         theta_hat_rate: &[T],
         (w, z): (&[T], &[T]),
-        (w_rate, z_rate): (&mut [T], &mut [T]),
+        w_rate: &mut [T],
     ) {
         let repeat = <T::Pack as Pack<T>>::repeat;
         let (gain, forgetting) = (repeat(self.gain), repeat(self.forgetting));
-        let mut rows = [[repeat(T::zero()); P]; N];
         let mut sum = [repeat(T::zero()); P];
         unrolled!(Self::LAYOUT.groups, g => {
             let mut correlation = Sum::EMPTY;
             for row in 0..N {
                 if Self::is_live(row, g) {
-                    rows[row][g] = Self::neighbours(g, |k| if R::LIVE[row][k] { filtered[(row, k)] } else { T::zero() });
                     correlation = correlation.plus(rows[row][g] * repeat(prediction_error[row]));
                 }
             }
@@ -117,7 +146,6 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         unrolled!(Self::LAYOUT.groups, g => {
             sum[g].store(&mut w_rate[g * Self::WIDTH..]);
         });
-        Self::write_kept(filtered, &rows, [gain, forgetting], z, z_rate);
     }
 
     /// `sum += Z θ̂'`. A function of its own in the browser's module, which is smaller then and as fast.
@@ -135,13 +163,9 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
 
     /// `Z' = γ Yfᵀ Yf − λ Z` of the kept vectors; `rows` is `Yf` in packs.
     #[inline(always)]
-    fn write_kept(
-        filtered: &Regressor<T, N, P>,
-        rows: &[[T::Pack; P]; N],
-        [gain, forgetting]: [T::Pack; 2],
-        z: &[T],
-        z_rate: &mut [T],
-    ) {
+    fn write_kept(&self, filtered: &Regressor<T, N, P>, rows: &[[T::Pack; P]; N], z: &[T], z_rate: &mut [T]) {
+        let repeat = <T::Pack as Pack<T>>::repeat;
+        let (gain, forgetting) = (repeat(self.gain), repeat(self.forgetting));
         let len = Self::LAYOUT.kept_len * Self::WIDTH;
         let (z, z_rate) = (&z[..len], &mut z_rate[..len]);
         unrolled!(Self::LAYOUT.kept_len, n => {
@@ -149,10 +173,10 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
             let mut product = Sum::EMPTY;
             for row in 0..N {
                 if R::LIVE[row][i] && Self::is_live(row, g) {
-                    product = product.plus(<T::Pack as Pack<T>>::repeat(filtered[(row, i)]) * rows[row][g]);
+                    product = product.plus(repeat(filtered[(row, i)]) * rows[row][g]);
                 }
             }
-            let product = product.total(<T::Pack as Pack<T>>::repeat(T::zero()));
+            let product = product.total(repeat(T::zero()));
             let z = T::Pack::load(&z[n * Self::WIDTH..]);
             (gain * product - forgetting * z).store(&mut z_rate[n * Self::WIDTH..]);
         });
@@ -248,6 +272,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::regressor::model_torque;
     use crate::robots::{CrsA465, Pendulum, TwoLink};
     use crate::scalar::Kernel;
     use nalgebra::SMatrix;
@@ -308,14 +333,14 @@ mod tests {
             PredictionMemory::<R, T, N, P>::read_plain(&plain, &mut states);
             PredictionMemory::<R, T, N, P>::write_plain(&states, &mut written);
             assert!(written == plain, "what is read is written again");
-            PredictionMemory::<R, T, N, P>::new(T::splat(1.3), T::splat(0.7)).derivative(
-                &self.0.filtered.map(T::splat),
-                &self.0.torque.map(T::splat),
-                self.0.theta_hat.map(T::splat).as_slice(),
-                self.0.theta_hat_rate.map(T::splat).as_slice(),
-                &states,
-                &mut rate,
-            );
+            let memory = PredictionMemory::<R, T, N, P>::new(T::splat(1.3), T::splat(0.7));
+            let filtered = self.0.filtered.map(T::splat);
+            let rows = PredictionMemory::<R, T, N, P>::rows(&filtered);
+            let theta_hat = self.0.theta_hat.map(T::splat);
+            let error = model_torque::<R, T, N, P>(&filtered, theta_hat.as_slice()) - self.0.torque.map(T::splat);
+            let theta_hat_rate = self.0.theta_hat_rate.map(T::splat);
+            memory.correlation_rate(&filtered, &rows, &states, &mut rate);
+            memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), &states, &mut rate);
             PredictionMemory::<R, T, N, P>::write_plain(&rate, &mut written);
             // Numbers that are kept twice stay the same.
             let mut again = ones(len);

@@ -42,7 +42,7 @@ pub struct ClosedLoop<R, V, A, T: Scalar, const N: usize, const P: usize> {
 }
 
 /// Everything between the state and the torque at one instant.
-struct Evaluation<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
+struct Evaluation<R: Robot<N, P>, B, T: Scalar, const N: usize, const P: usize> {
     geometry: R::Geometry<T>,
     velocity: SVector<T, N>,
     sign_velocity: SVector<T, N>,
@@ -52,6 +52,8 @@ struct Evaluation<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> {
     sliding: SlidingSignals<T, N>,
     regressor: Regressor<T, N, P>,
     torque: SVector<T, N>,
+    /// What the adaptation law has begun, where it did on the way.
+    begun: Option<B>,
 }
 
 /// Where the parts of the state vector begin.
@@ -73,6 +75,10 @@ where
     A: AdaptationLaw<R, T, N, P>,
     T: Scalar,
 {
+    /// Whether the adaptation law begins while torques are computed: where four neighbours are worked on together. Lanes keep the
+    /// processor busy anyway, and browsers order instructions themselves (docs/decisions/0021-neighbours.md).
+    const BEGINS_EARLY: bool = A::FILTERS && <T::Pack as Pack<T>>::WIDTH > 1 && !cfg!(target_arch = "wasm32");
+
     #[inline(always)]
     fn layout(&self) -> Layout {
         let velocity_source = 2 * N;
@@ -82,19 +88,35 @@ where
         Layout { velocity_source, theta_hat, theta_end, adaptation, len: adaptation + self.adaptation.states() }
     }
 
+    /// `law_rate` takes what the adaptation law can write on the way; the rest is for [`Self::write_rate`].
     #[inline(always)]
-    fn evaluate(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
-        if T::IS_PLAIN { self.evaluate_apart(desired, x) } else { self.evaluate_within(desired, x) }
+    fn evaluate(
+        &self,
+        desired: &Desired<T, N>,
+        x: &[T],
+        law_rate: Option<&mut [T]>,
+    ) -> Evaluation<R, A::Begun, T, N, P> {
+        if T::IS_PLAIN { self.evaluate_apart(desired, x, law_rate) } else { self.evaluate_within(desired, x, law_rate) }
     }
 
     /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
     #[inline(never)]
-    fn evaluate_apart(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
-        self.evaluate_within(desired, x)
+    fn evaluate_apart(
+        &self,
+        desired: &Desired<T, N>,
+        x: &[T],
+        law_rate: Option<&mut [T]>,
+    ) -> Evaluation<R, A::Begun, T, N, P> {
+        self.evaluate_within(desired, x, law_rate)
     }
 
     #[inline(always)]
-    fn evaluate_within(&self, desired: &Desired<T, N>, x: &[T]) -> Evaluation<R, T, N, P> {
+    fn evaluate_within(
+        &self,
+        desired: &Desired<T, N>,
+        x: &[T],
+        law_rate: Option<&mut [T]>,
+    ) -> Evaluation<R, A::Begun, T, N, P> {
         let layout = self.layout();
         let position = SVector::<T, N>::from_column_slice(&x[..N]);
         let velocity = SVector::<T, N>::from_column_slice(&x[N..2 * N]);
@@ -117,14 +139,21 @@ where
             &sliding.reference_acceleration,
             &sign_reference,
         );
+        // Here, because the model torque waits for the regressor, and the acceleration for the torque.
+        let begun = if Self::BEGINS_EARLY {
+            let law = &x[layout.adaptation..];
+            Some(self.adaptation.begin(&geometry, &estimate.velocity, &sign_estimate, law, law_rate))
+        } else {
+            None
+        };
         let model = model_torque::<R, T, N, P>(&regressor, &x[layout.theta_hat..layout.theta_end]);
         let torque = self.feedback.torque(&sliding, &model);
-        Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, torque }
+        Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, torque, begun }
     }
 
     /// The derivative of the state.
     #[inline(always)]
-    fn write_rate(&self, now: &Evaluation<R, T, N, P>, x: &[T], rate: &mut [T]) {
+    fn write_rate(&self, now: &Evaluation<R, A::Begun, T, N, P>, x: &[T], rate: &mut [T]) {
         let layout = self.layout();
         let (x, rate) = (&x[..layout.len], &mut rate[..layout.len]);
         let acceleration = self.plant.acceleration(&now.geometry, &now.velocity, &now.sign_velocity, &now.torque);
@@ -142,12 +171,14 @@ where
         };
         let (before_law, law_rate) = rate.split_at_mut(layout.adaptation);
         let theta_hat_rate = &mut before_law[layout.theta_hat..layout.theta_end];
-        self.adaptation.derivative(&input, &x[layout.adaptation..], theta_hat_rate, law_rate);
+        let law = &x[layout.adaptation..];
+        let begun = if Self::BEGINS_EARLY { now.begun } else { None };
+        self.adaptation.derivative(begun, &input, law, theta_hat_rate, law_rate);
     }
 
     /// A row of a recording.
     #[inline(always)]
-    fn write_row(&self, now: &Evaluation<R, T, N, P>, desired: &Desired<T, N>, x: &[T], row: &mut [T]) {
+    fn write_row(&self, now: &Evaluation<R, A::Begun, T, N, P>, desired: &Desired<T, N>, x: &[T], row: &mut [T]) {
         let layout = self.layout();
         let blocks = [
             now.sliding.error,
@@ -273,7 +304,7 @@ where
 
     #[inline(always)]
     fn run(self) {
-        let Self { system, time_s, want, .. } = self;
+        let Self { system, time_s, mut want, .. } = self;
         // One check here removes those of every part.
         let x = &self.x[..system.layout().len];
         let desired = system.trajectory.at(time_s);
@@ -283,7 +314,16 @@ where
             }
             return;
         }
-        let now = system.evaluate(&desired, x);
+        let Layout { adaptation, len, .. } = system.layout();
+        let law_rate = if ClosedLoop::<R, V, A, T, N, P>::BEGINS_EARLY {
+            match &mut want {
+                Want::Rate(rate) | Want::Both(_, rate) => Some(&mut rate[adaptation..len]),
+                Want::Row(_) | Want::Error(_) => None,
+            }
+        } else {
+            None
+        };
+        let now = system.evaluate(&desired, x, law_rate);
         let (row, rate) = match want {
             Want::Rate(rate) => (None, Some(rate)),
             Want::Row(row) => (Some(row), None),

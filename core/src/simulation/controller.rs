@@ -143,7 +143,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
         };
         let (theta_hat_rate, law_rate) = rest_rate.split_at_mut(P);
         let (law_rate, integral_rate) = law_rate.split_at_mut(self.adaptation.states());
-        self.adaptation.derivative(&input, &law[..law_rate.len()], theta_hat_rate, law_rate);
+        self.adaptation.derivative(None, &input, &law[..law_rate.len()], theta_hat_rate, law_rate);
         for rate in theta_hat_rate {
             *rate *= self.adaptation_sign;
         }

@@ -103,7 +103,7 @@ fn check_batch(forgetting: f64) {
             theta_hat: &x[estimates..states],
         };
         let (estimates_rate, rest) = rate[estimates..].split_at_mut(18);
-        law.derivative(&input, &x[states..information], estimates_rate, &mut rest[..law_states]);
+        law.derivative(None, &input, &x[states..information], estimates_rate, &mut rest[..law_states]);
         let (y, tau): (Regressor<f64, 3, 18>, _) =
             law.filter.advance(&geometry, &velocity, &sign, &torque, &x[states..], &mut vec![0.0; FILTER]);
         let known = SMatrix::<f64, 18, 18>::from_column_slice(&x[information..correlation]);
@@ -154,7 +154,7 @@ fn forgetting_without_excitation_is_bounded() {
                 gradient: &SVector::zeros(),
                 theta_hat: &[0.0; 18],
             };
-            law.derivative(&input, x, &mut [0.0; 18], rate);
+            law.derivative(None, &input, x, &mut [0.0; 18], rate);
         });
         let (gain, t) = (Law::gain(&x), f64::from(n + 1) * 1e-3);
         let expected = 3.0 / (1.0 + 2.0 * (-5.0 * t).exp());

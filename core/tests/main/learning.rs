@@ -130,7 +130,7 @@ fn concurrent_learning_is_its_equation() {
         theta_hat: &theta_hat,
     };
     let (mut rate, mut states_rate) = ([0.0; 11], vec![9.0; states.len()]);
-    law.derivative(&input, &states, &mut rate, &mut states_rate);
+    law.derivative(None, &input, &states, &mut rate, &mut states_rate);
     assert!(states_rate[FILTER..].iter().all(|rate| *rate == 0.0), "what is recorded rests");
     let mut drive = DVector::from_column_slice(gradient.as_slice());
     for (y, tau) in &moments {
