@@ -90,7 +90,16 @@ impl<'a> Page<'a> {
         let mut builder = ClientBuilder::new(HttpConnector::new());
         builder.capabilities(wanted);
         let client = bench.runtime.block_on(builder.connect(&bench.driver.url)).context("cannot open a browser")?;
-        Ok(Self { bench, client, _profile: profile })
+        let page = Self { bench, client, _profile: profile };
+        page.take_focus()?;
+        Ok(page)
+    }
+
+    /// Makes the tab behave as one that has the focus. Chromium 148 begins on its new-tab page with the focus in the
+    /// address bar and leaves it there: fields would not be selected by a script, and no focus ring would be drawn.
+    fn take_focus(&self) -> Result<()> {
+        self.devtools("Emulation.setFocusEmulationEnabled", &json!({ "enabled": true }))?;
+        Ok(())
     }
 
     /// Goes to the page.
@@ -117,7 +126,8 @@ impl<'a> Page<'a> {
 
     /// From now on everything here means this tab.
     pub fn switch_to(&self, tab: &WindowHandle) -> Result<()> {
-        Ok(self.bench.runtime.block_on(self.client.switch_to_window(tab.clone()))?)
+        self.bench.runtime.block_on(self.client.switch_to_window(tab.clone()))?;
+        self.take_focus()
     }
 
     /// Runs a script's body in every page that is opened from now on, before any of its own scripts.
