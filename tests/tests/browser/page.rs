@@ -92,7 +92,16 @@ impl<'a> Page<'a> {
         let client = bench.runtime.block_on(builder.connect(&bench.driver.url)).context("cannot open a browser")?;
         let page = Self { bench, client, _profile: profile };
         page.take_focus()?;
+        page.leave_start_page()?;
         Ok(page)
+    }
+
+    /// Leaves the page that the browser begins on, and forgets what that one asked for and said: it is not ours.
+    fn leave_start_page(&self) -> Result<()> {
+        self.go("about:blank")?;
+        self.log("performance")?;
+        self.log("browser")?;
+        Ok(())
     }
 
     /// Makes the tab behave as one that has the focus. Chromium 148 begins on its new-tab page with the focus in the

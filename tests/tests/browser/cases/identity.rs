@@ -27,12 +27,7 @@ pub fn the_default_study_has_the_same_bits_everywhere(bench: &Bench) -> Result<(
 }
 
 pub fn nothing_is_asked_of_other_origins(bench: &Bench) -> Result<()> {
-    let page = Page::blank(bench, Screen::Desktop)?;
-    // Some browsers begin on a page of their own: what that one asks for is not ours.
-    page.go("about:blank")?;
-    page.log("performance")?;
-    page.visit()?;
-    page.ready()?;
+    let page = Page::open(bench, Screen::Desktop)?;
     page.click("#theme-toggle")?;
     let origin = format!("{}/", bench.server.url.trim_end_matches('/'));
     let mut requests = 0;
