@@ -1,6 +1,6 @@
 //! Recordings: what a run leaves behind, one row per sample and one for its end, in SI units; and the hash over their bits.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, are_finite};
 use nalgebra::SVector;
 use std::fmt::Write;
 
@@ -129,12 +129,18 @@ impl Recording {
         self.rows.resize(start + self.columns.width(), 0.0);
         self.rows[start] = time_s;
         observe(&mut self.rows[start + 1..]);
-        if self.rows[start..].iter().all(|x| x.is_finite()) {
+        if are_finite(&self.rows[start..]) {
             Ok(())
         } else {
             self.rows.truncate(start);
             Err(NotFinite)
         }
+    }
+
+    /// Adds a row of numbers that are finite, behind its time.
+    pub(crate) fn push_finite(&mut self, time_s: f64, row: &[f64]) {
+        self.rows.push(time_s);
+        self.rows.extend_from_slice(row);
     }
 
     /// Shape of the rows.
@@ -182,18 +188,30 @@ impl Recording {
 
     /// Hash over the bits of every sample (little-endian, row by row): equal hashes mean equal trajectories.
     pub fn hash(&self) -> String {
+        // BLAKE3 hashes many of its 1024-byte chunks side by side where whole ones arrive together: what is said first, too,
+        // must not shift them.
+        const AT_ONCE: usize = 1 << 16;
         let mut hasher = blake3::Hasher::new();
-        hasher.update(b"adaptarm.trajectory/1");
-        hasher.update(&(self.columns.joints as u64).to_le_bytes());
-        hasher.update(&(self.columns.parameters as u64).to_le_bytes());
-        // Long enough for BLAKE3 to hash many of its 1024-byte chunks side by side.
-        let mut bytes = vec![0; 1 << 16];
-        for numbers in self.rows.chunks(bytes.len() / 8) {
-            for (bytes, number) in bytes.chunks_exact_mut(8).zip(numbers) {
+        let mut bytes = Vec::with_capacity(AT_ONCE + 8);
+        bytes.extend_from_slice(b"adaptarm.trajectory/1");
+        bytes.extend_from_slice(&(self.columns.joints as u64).to_le_bytes());
+        bytes.extend_from_slice(&(self.columns.parameters as u64).to_le_bytes());
+        let mut rest = self.rows.as_slice();
+        while !rest.is_empty() {
+            let missing = (AT_ONCE - bytes.len()).div_ceil(8);
+            let (numbers, after) = rest.split_at(missing.min(rest.len()));
+            let start = bytes.len();
+            bytes.resize(start + 8 * numbers.len(), 0);
+            for (bytes, number) in bytes[start..].chunks_exact_mut(8).zip(numbers) {
                 bytes.copy_from_slice(&number.to_le_bytes());
             }
-            hasher.update(&bytes[..8 * numbers.len()]);
+            rest = after;
+            if bytes.len() >= AT_ONCE {
+                hasher.update(&bytes[..AT_ONCE]);
+                bytes.drain(..AT_ONCE);
+            }
         }
+        hasher.update(&bytes);
         hasher.finalize().to_hex().to_string()
     }
 

@@ -126,6 +126,32 @@ pub trait Scalar:
     }
 }
 
+/// Zero where every number is finite: zero times a number that is not is no number.
+#[inline(always)]
+pub(crate) fn zero_where_finite<T: Scalar>(numbers: &[T]) -> T {
+    // Several sums side by side have less to wait for.
+    let mut zeros = [T::zero(); 8];
+    let (blocks, rest) = numbers.as_chunks::<8>();
+    for n in 0..blocks.len() {
+        for i in 0..8 {
+            zeros[i] += blocks[n][i] * T::zero();
+        }
+    }
+    for i in 0..rest.len() {
+        zeros[i] += rest[i] * T::zero();
+    }
+    let mut all = T::zero();
+    for i in 0..8 {
+        all += zeros[i];
+    }
+    all
+}
+
+/// Whether all numbers are finite; without a branch per number.
+pub(crate) fn are_finite(numbers: &[f64]) -> bool {
+    zero_where_finite(numbers) == 0.0
+}
+
 /// `(sin x, cos x)` of any angle, rad; libm on every target.
 pub(crate) fn sin_cos_of_any(x: f64) -> (f64, f64) {
     libm::sincos(x)

@@ -101,8 +101,12 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         (w_rate, z_rate): (&mut [T], &mut [T]),
     ) {
         let correlation = gradient::<R, T, N, P>(filtered, prediction_error);
+        // Copies, of which the compiler knows that writing rates does not change them: else all is read and written again for each pair.
+        let (gain, forgetting) = (self.gain, self.forgetting);
+        let theta_hat_rate = SVector::<T, P>::from_column_slice(theta_hat_rate);
+        let mut sum = [T::zero(); P];
         for k in 0..P {
-            w_rate[k] = self.gain * correlation[k] - self.forgetting * w[k];
+            sum[k] = gain * correlation[k] - forgetting * w[k];
         }
         unrolled!(R::PAIRS.len(), n => {
             let (i, j) = R::PAIRS[n];
@@ -112,12 +116,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
                     product = product.plus(filtered[(row, i)] * filtered[(row, j)]);
                 }
             }
-            z_rate[n] = self.gain * product.total(T::zero()) - self.forgetting * z[n];
-            w_rate[i] += z[n] * theta_hat_rate[j];
+            let z = z[n];
+            z_rate[n] = gain * product.total(T::zero()) - forgetting * z;
+            sum[i] += z * theta_hat_rate[j];
             if i != j {
-                w_rate[j] += z[n] * theta_hat_rate[i];
+                sum[j] += z * theta_hat_rate[i];
             }
         });
+        w_rate[..P].copy_from_slice(&sum);
     }
 
     /// The same sums of `w'`, each in the same order, for neighbouring parameters at once (docs/decisions/0021-neighbours.md).

@@ -1,14 +1,16 @@
-//! Numbers in memory from where a cache line begins: a vector that is read or written never lies across two lines.
+//! Numbers in memory from where a page begins: a vector that is read or written never lies across two cache lines, and the same
+//! place of two arrays has the same last twelve bits of its address. By these processors tell whether what is read was written just
+//! before: arrays that begin anywhere made eight lanes up to 1.4 times as slow, by chance.
 
 use std::ops::{Deref, DerefMut};
 
-/// Bytes of a cache line, and of the longest vector.
-const LINE: usize = 64;
+/// Bytes of a page.
+const PAGE: usize = 4096;
 
-/// Numbers from a line's start on, as many as at first. Not `Clone`: a derived copy would begin anywhere.
+/// Numbers from a page's start on, as many as at first. Not `Clone`: a derived copy would begin anywhere.
 #[derive(Debug)]
 pub struct Aligned<T> {
-    /// With room to begin where a line does.
+    /// With room to begin where a page does.
     room: Vec<T>,
     start: usize,
     len: usize,
@@ -17,9 +19,9 @@ pub struct Aligned<T> {
 impl<T: Copy> Aligned<T> {
     /// `len` times the same number.
     pub fn repeat(number: T, len: usize) -> Self {
-        let room = vec![number; len + LINE / size_of::<T>().max(1)];
+        let room = vec![number; len + PAGE / size_of::<T>().max(1)];
         // Where it cannot be told, any start is right.
-        let start = room.as_ptr().align_offset(LINE).min(room.len() - len);
+        let start = room.as_ptr().align_offset(PAGE).min(room.len() - len);
         Self { room, start, len }
     }
 }
@@ -53,12 +55,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn begins_where_a_line_does_and_holds_its_numbers() {
+    fn begins_where_a_page_does_and_holds_its_numbers() {
         for len in 0..20_u32 {
             let numbers: Vec<f64> = (0..len).map(f64::from).collect();
             let mut aligned = Aligned::from(numbers.as_slice());
             assert_eq!(*aligned, *numbers);
-            assert!(len == 0 || aligned.as_ptr().addr().is_multiple_of(LINE));
+            assert!(len == 0 || aligned.as_ptr().addr().is_multiple_of(PAGE));
             aligned.fill(1.0);
             assert_eq!(*aligned, vec![1.0; numbers.len()]);
         }

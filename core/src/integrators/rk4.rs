@@ -1,7 +1,7 @@
 //! The classical fixed-step Runge-Kutta method of order 4.
 
 use super::Aligned;
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::{Kernel, Scalar, zero_where_finite};
 
 /// Work space for a state of a given length; no step allocates.
 ///
@@ -160,27 +160,6 @@ fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) {
     for i in 0..len {
         out[i] = x[i] + sixth * (sum[i] + slope[i]);
     }
-}
-
-/// Zero where every number is finite: zero times a number that is not is no number.
-#[inline(always)]
-fn zero_where_finite<T: Scalar>(numbers: &[T]) -> T {
-    // Several sums side by side have less to wait for.
-    let mut zeros = [T::zero(); 8];
-    let (blocks, rest) = numbers.as_chunks::<8>();
-    for n in 0..blocks.len() {
-        for i in 0..8 {
-            zeros[i] += blocks[n][i] * T::zero();
-        }
-    }
-    for i in 0..rest.len() {
-        zeros[i] += rest[i] * T::zero();
-    }
-    let mut all = T::zero();
-    for i in 0..8 {
-        all += zeros[i];
-    }
-    all
 }
 
 #[cfg(test)]

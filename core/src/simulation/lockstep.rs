@@ -8,7 +8,7 @@ use super::run::exceeded_joint;
 use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD};
 use crate::integrators::{Aligned, Rk4};
 use crate::recording::Recording;
-use crate::scalar::{Kernel, Scalar};
+use crate::scalar::{Kernel, Scalar, zero_where_finite};
 
 /// Lanes under way, whatever their scalar.
 pub(crate) trait Lockstep: Send {
@@ -157,16 +157,17 @@ impl<T: Scalar> Lanes<T> {
     /// Records a row for every run that has not ended; one that is not finite ends its run. `stepped` says whether the row
     /// belongs to the step just made, which then counts as the one that diverged.
     fn record_row(&mut self, stepped: bool) {
-        T::compiled(ByLane { row: &self.row, rows: &mut self.rows });
+        let finite = T::compiled(ByLane { row: &self.row, rows: &mut self.rows });
         let width = self.row.len();
         for lane in 0..self.runs.len() {
             let run = &mut self.runs[lane];
             if run.end.is_some() {
                 continue;
             }
-            let row = &self.rows[lane * width..][..width];
-            let recorded = run.recorder.record_row(|out| out.copy_from_slice(row));
-            if let Err(reason) = recorded {
+            if finite.lane(lane) == 0.0 {
+                run.recorder.record_finite(&self.rows[lane * width..][..width]);
+            } else {
+                let reason = Divergence::NotFinite;
                 self.end(lane, Outcome::Diverged { at_s: self.time_s, reason }, stepped);
             }
         }
@@ -199,17 +200,17 @@ impl<T: Scalar> Kernel for IsAnyLost<'_, T> {
     }
 }
 
-/// A row of all lanes as one row per lane.
+/// A row of all lanes as one row per lane; gives zero where its numbers are finite.
 struct ByLane<'a, T> {
     row: &'a [T],
     rows: &'a mut [f64],
 }
 
 impl<T: Scalar> Kernel for ByLane<'_, T> {
-    type Output = ();
+    type Output = T;
 
     #[inline(always)]
-    fn run(self) {
+    fn run(self) -> T {
         let (row, width) = (self.row, self.row.len());
         let rows = &mut self.rows[..width * T::LANES];
         for n in 0..width {
@@ -217,6 +218,7 @@ impl<T: Scalar> Kernel for ByLane<'_, T> {
                 rows[lane * width + n] = row[n].lane(lane);
             }
         }
+        zero_where_finite(row)
     }
 }
 

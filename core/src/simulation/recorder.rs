@@ -26,8 +26,17 @@ impl Recorder {
 
     /// Records the next sample (or the end) as `observe` writes it.
     pub fn record_row(&mut self, observe: impl FnOnce(&mut [f64])) -> Result<(), Divergence> {
-        let label_s = self.settings.sample_time_s(self.recording.len());
-        self.recording.push(label_s, observe).map_err(|_| Divergence::NotFinite)
+        self.recording.push(self.label_s(), observe).map_err(|_| Divergence::NotFinite)
+    }
+
+    /// Records the next sample (or the end), a row whose numbers are finite.
+    pub fn record_finite(&mut self, row: &[f64]) {
+        self.recording.push_finite(self.label_s(), row);
+    }
+
+    /// Time of the next sample.
+    fn label_s(&self) -> f64 {
+        self.settings.sample_time_s(self.recording.len())
     }
 
     /// Whether a sample is due before `end_s`.

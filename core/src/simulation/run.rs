@@ -6,6 +6,7 @@ use super::{
 };
 use crate::integrators::{Aligned, Dopri5, Rk4};
 use crate::recording::Recording;
+use crate::scalar::are_finite;
 
 /// The integrator of a run, with its work space.
 enum Stepper {
@@ -346,19 +347,6 @@ impl Simulation {
 /// The first joint (1 is the first) whose tracking error is beyond what counts as tracking.
 pub(super) fn exceeded_joint(error_rad: impl Iterator<Item = f64>) -> Option<usize> {
     error_rad.enumerate().find(|(_, e)| e.abs() > TRACKING_ERROR_LIMIT_RAD).map(|(joint, _)| joint + 1)
-}
-
-/// Whether all numbers are finite. Zero times a number that is not is no number, and sixteen sums side by side need no
-/// branches: this costs next to nothing.
-fn are_finite(x: &[f64]) -> bool {
-    let mut zeros = [0.0; 16];
-    let (blocks, rest) = x.as_chunks();
-    for block in blocks {
-        for (zero, x) in zeros.iter_mut().zip::<&[f64; 16]>(block) {
-            *zero += x * 0.0;
-        }
-    }
-    zeros.iter().chain(rest).all(|x| x.is_finite())
 }
 
 /// Cubic Hermite interpolation at the fraction `s` of a step of length `h`, between its ends.
