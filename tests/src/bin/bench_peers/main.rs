@@ -14,13 +14,8 @@ mod rounds;
 
 use adaptarm_core::scenario::Scheme;
 use anyhow::{Context, Result, bail};
-use mimalloc::MiMalloc;
 use rounds::Pinned;
 use std::path::PathBuf;
-
-/// The program's own; ours is measured as people run it.
-#[global_allocator]
-static ALLOCATOR: MiMalloc = MiMalloc;
 
 /// Where peers are compiled to and where the table also goes.
 struct Arguments {
