@@ -130,7 +130,7 @@ impl Simulation {
         if snapshot.state.len() != self.system.plain_len() {
             return shape("state", self.system.plain_len(), snapshot.state.len());
         }
-        if !snapshot.state.iter().chain(&snapshot.rows).all(|x| x.is_finite()) {
+        if !(are_finite(&snapshot.state) && are_finite(&snapshot.rows)) {
             return inconsistent("numbers that are not finite");
         }
         let time_belongs = match &self.stepper {
