@@ -23,6 +23,7 @@ pub mod figures;
 pub mod integrators;
 pub mod lanes;
 pub mod metrics;
+mod packed;
 mod random;
 pub mod recording;
 pub mod regressor;

@@ -9,7 +9,7 @@
 use super::F64x2 as Vector;
 #[cfg(target_arch = "x86_64")]
 use super::F64x4 as Vector;
-use super::{impl_scalar, widths};
+use super::impl_scalar;
 use crate::scalar::{Kernel, MOST_PACKED, Pack, Scalar};
 
 /// One number.
@@ -19,8 +19,12 @@ pub(crate) struct Neighbour(f64);
 
 impl Neighbour {
     /// Whether this machine has the instructions.
+    #[inline(always)]
     pub fn is_here() -> bool {
-        widths().contains(&Vector::LANES)
+        #[cfg(target_arch = "x86_64")]
+        return super::x86_64::has_four();
+        #[cfg(target_arch = "wasm32")]
+        true
     }
 
     /// These numbers.

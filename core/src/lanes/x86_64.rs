@@ -15,11 +15,17 @@ use std::arch::x86_64::*;
 pub(super) fn widths() -> &'static [usize] {
     if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
         &[8, 4, 2, 1]
-    } else if is_x86_feature_detected!("avx2") {
+    } else if has_four() {
         &[4, 2, 1]
     } else {
         &[2, 1]
     }
+}
+
+/// Whether this machine has four lanes: asked several times per step.
+#[inline(always)]
+pub(super) fn has_four() -> bool {
+    is_x86_feature_detected!("avx2")
 }
 
 /// A type of lanes from its vector, its mask and one intrinsic per operation.

@@ -22,7 +22,7 @@ impl StateSpace<f64> for AsNumbers {
     fn initialize(&self, x: &mut [f64]) {
         self.0.initialize(Neighbour::of_mut(x));
     }
-    fn foresee(&self, times_s: [f64; 2]) {
+    fn foresee(&self, times_s: &[f64]) {
         self.0.foresee(times_s);
     }
     fn derivative(&self, time_s: f64, x: &[f64], rate: &mut [f64]) {

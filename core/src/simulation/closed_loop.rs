@@ -236,7 +236,7 @@ where
         self.adaptation.initialize(&R::geometry(&desired.position), &estimate.velocity, law);
     }
 
-    fn foresee(&self, times_s: [f64; 2]) {
+    fn foresee(&self, times_s: &[f64]) {
         T::compiled(Foresee { trajectory: &self.trajectory, times_s });
     }
 
@@ -265,7 +265,7 @@ where
 /// [`Remembered::foresee`], compiled for each kind of scalar.
 struct Foresee<'a, T: Scalar, const N: usize> {
     trajectory: &'a Remembered<T, N>,
-    times_s: [f64; 2],
+    times_s: &'a [f64],
 }
 
 impl<T: Scalar, const N: usize> Kernel for Foresee<'_, T, N> {

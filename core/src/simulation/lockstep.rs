@@ -115,7 +115,7 @@ impl<T: Scalar> Lanes<T> {
             self.record_row(false);
         }
         let (system, end_s) = (&*self.system, self.step_times.start_s(self.step + 1));
-        system.foresee([Rk4::<T>::middle_s(self.time_s, end_s), end_s]);
+        system.foresee(self.step_times.foreseen_s::<1>(self.step).as_flattened());
         let derivative = |t: f64, x: &[T], rate: &mut [T]| system.derivative(t, x, rate);
         let finite = if is_sampled {
             self.rk4.step_from_slope(self.time_s, end_s, &mut self.state, derivative)

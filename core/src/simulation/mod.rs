@@ -24,9 +24,10 @@ pub use outcome::{Divergence, Outcome, TRACKING_ERROR_LIMIT_RAD};
 pub use run::Simulation;
 pub use snapshot::{Snapshot, SnapshotError};
 
-use crate::integrators::Tolerances;
+use crate::integrators::{Rk4, Tolerances};
 use crate::recording::Columns;
 use crate::scalar::Scalar;
+use crate::trajectories::MOST_FORESEEN;
 
 /// A dynamical system `x' = f(t, x)` that tracks something and can be observed.
 pub trait StateSpace<T: Scalar>: Send {
@@ -56,8 +57,8 @@ pub trait StateSpace<T: Scalar>: Send {
     }
     /// Writes the initial state.
     fn initialize(&self, x: &mut [T]);
-    /// Says at which two instants beside its start a fixed step will evaluate the system.
-    fn foresee(&self, _times_s: [f64; 2]) {}
+    /// Says at which instants the next fixed steps will evaluate the system, [`MOST_FORESEEN`] at most.
+    fn foresee(&self, _times_s: &[f64]) {}
     /// Writes `f(t, x)`.
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
     /// Writes one row of a recording without its time: see [`Columns`].
@@ -75,6 +76,9 @@ pub trait StateSpace<T: Scalar>: Send {
     /// What changes in one instant, at the start of fixed step `step`: samples of a controller's clock, loads that come and go.
     fn begin_step(&self, _step: u64, _time_s: f64, _x: &mut [T]) {}
 }
+
+/// How many steps one run foresees at once. Lanes foresee one: they need not wait for sines, and have little room in the first cache.
+const STEPS_FORESEEN: usize = MOST_FORESEEN / 2;
 
 /// How to integrate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,6 +101,16 @@ impl StepTimes {
     /// Time at which step `n` starts, s; the last step ends at the duration exactly.
     fn start_s(&self, n: u64) -> f64 {
         if n >= self.steps { self.duration_s } else { n as f64 * self.step_s }
+    }
+
+    /// Middles and ends of `STEPS` steps, from step `n` on: where RK4 evaluates them.
+    fn foreseen_s<const STEPS: usize>(&self, n: u64) -> [[f64; 2]; STEPS] {
+        let mut times_s = [[0.0; 2]; STEPS];
+        for (times_s, n) in times_s.iter_mut().zip(n..) {
+            let (start_s, end_s) = (self.start_s(n), self.start_s(n + 1));
+            *times_s = [Rk4::<f64>::middle_s(start_s, end_s), end_s];
+        }
+        times_s
     }
 }
 

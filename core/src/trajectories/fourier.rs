@@ -3,18 +3,21 @@
 //! One sine and cosine per instant: harmonics follow by the angle-addition theorem.
 
 use super::Desired;
+use super::motion::MOST_LANES;
+use crate::packed::Packed;
 use crate::scalar::Scalar;
 use nalgebra::SVector;
+use std::cell::Cell;
 
 /// A Fourier trajectory for `N` joints.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fourier<T, const N: usize> {
+pub struct Fourier<T: Scalar, const N: usize> {
     /// Base angular frequency ω, rad/s.
     frequency_rad_s: f64,
     /// Constant part, rad.
-    offset: SVector<T, N>,
+    offset: Packed<T, N>,
     /// Amplitudes of `sin kωt` and `cos kωt` for k = 1, 2, ..., rad.
-    harmonics: Vec<(SVector<T, N>, SVector<T, N>)>,
+    harmonics: Vec<(Packed<T, N>, Packed<T, N>)>,
 }
 
 impl<const N: usize> Fourier<f64, N> {
@@ -26,12 +29,13 @@ impl<const N: usize> Fourier<f64, N> {
         cosine_deg: &[Vec<f64>],
     ) -> Self {
         let amplitude = |rows: &[Vec<f64>], k: usize| {
-            SVector::from_fn(|joint, _| rows.get(joint).and_then(|row| row.get(k)).map_or(0.0, |deg| deg.to_radians()))
+            let deg = |joint: usize| rows.get(joint).and_then(|row| row.get(k)).copied();
+            Packed::of(&SVector::from_fn(|joint, _| deg(joint).map_or(0.0, f64::to_radians)))
         };
         let count = sine_deg.iter().chain(cosine_deg).map(Vec::len).max().unwrap_or(0);
         Self {
             frequency_rad_s,
-            offset: SVector::from_fn(|joint, _| offset_deg[joint].to_radians()),
+            offset: Packed::of(&SVector::from_fn(|joint, _| offset_deg[joint].to_radians())),
             harmonics: (0..count).map(|k| (amplitude(sine_deg, k), amplitude(cosine_deg, k))).collect(),
         }
     }
@@ -51,8 +55,8 @@ impl<const N: usize> Fourier<f64, N> {
 impl<T: Scalar, const N: usize> Fourier<T, N> {
     /// The trajectories of `T`'s lanes as one; they must run beside each other.
     pub fn side_by_side<'a>(of_lane: impl Fn(usize) -> &'a Fourier<f64, N>) -> Self {
-        let vector = |of: &dyn Fn(&Fourier<f64, N>) -> SVector<f64, N>| {
-            SVector::from_fn(|joint, _| T::from_lanes(|lane| of(of_lane(lane))[joint]))
+        let vector = |of: &dyn Fn(&Fourier<f64, N>) -> Packed<f64, N>| {
+            Packed::of(&SVector::from_fn(|joint, _| T::from_lanes(|lane| of(of_lane(lane)).numbers()[joint])))
         };
         let first = of_lane(0);
         Self {
@@ -70,29 +74,40 @@ impl<T: Scalar, const N: usize> Fourier<T, N> {
         self.turned_by(Scalar::sin_cos(self.frequency_rad_s * time_s))
     }
 
-    /// Desired motion at two instants, with the bits of [`Self::at`].
+    /// Desired motion at each of several instants, with the bits of [`Self::at`]: sines of as many at once as the machine can.
     #[inline(always)]
-    pub fn at_two(&self, [a, b]: [f64; 2]) -> [Desired<T, N>; 2] {
-        let (a, b) = f64::sin_cos_of_two(self.frequency_rad_s * a, self.frequency_rad_s * b);
-        [self.turned_by(a), self.turned_by(b)]
+    pub fn at_each(&self, times_s: &[f64], motions: &[Cell<Desired<T, N>>]) {
+        let together = <T::Pack as Scalar>::LANES;
+        for from in (0..times_s.len()).step_by(together) {
+            let mut angles = [0.0; MOST_LANES];
+            let count = together.min(times_s.len() - from);
+            for n in 0..count {
+                angles[n] = self.frequency_rad_s * times_s[from + n];
+            }
+            let (sin, cos) = T::Pack::from_lanes(|lane| angles[lane]).sin_cos();
+            for n in 0..count {
+                motions[from + n].set(self.turned_by((sin.lane(n), cos.lane(n))));
+            }
+        }
     }
 
     /// Desired motion where the base frequency has turned by an angle with this sine and cosine.
     #[inline(always)]
     fn turned_by(&self, (sin1, cos1): (f64, f64)) -> Desired<T, N> {
-        let mut desired = Desired { position: self.offset, velocity: SVector::zeros(), acceleration: SVector::zeros() };
+        let zero = Packed::repeat(T::zero());
+        let (mut position, mut velocity, mut acceleration) = (self.offset, zero, zero);
         let (mut sin, mut cos) = (sin1, cos1);
         let mut rate = self.frequency_rad_s;
-        for (a, b) in &self.harmonics {
+        for &(a, b) in &self.harmonics {
             let (s, c) = (T::splat(sin), T::splat(cos));
             let wave = a * s + b * c;
-            desired.position += wave;
-            desired.velocity += (a * c - b * s) * T::splat(rate);
-            desired.acceleration -= wave * T::splat(rate * rate);
+            position = position + wave;
+            velocity = velocity + (a * c - b * s) * T::splat(rate);
+            acceleration = acceleration - wave * T::splat(rate * rate);
             (sin, cos) = (sin * cos1 + cos * sin1, cos * cos1 - sin * sin1);
             rate += self.frequency_rad_s;
         }
-        desired
+        Desired { position: position.numbers(), velocity: velocity.numbers(), acceleration: acceleration.numbers() }
     }
 }
 

@@ -14,7 +14,7 @@ pub use fourier::Fourier;
 pub use motion::{Motion, Trajectory};
 pub use point_to_point::{PointToPoint, minimum_jerk};
 pub use random_fourier::random_fourier;
-pub use remembered::Remembered;
+pub use remembered::{MOST_FORESEEN, Remembered};
 pub use samples::Samples;
 pub use tip_path::{Path, TipPath};
 

@@ -6,11 +6,12 @@
 use super::{Desired, Fourier};
 use crate::scalar::Scalar;
 use nalgebra::SVector;
+use std::cell::Cell;
 use std::fmt::Debug;
 use std::sync::Arc;
 
 /// Most lanes that a scalar has here.
-const MOST_LANES: usize = 16;
+pub(super) const MOST_LANES: usize = 16;
 
 /// A desired motion in closed form.
 pub trait Motion<const N: usize>: Debug + Send + Sync {
@@ -20,7 +21,7 @@ pub trait Motion<const N: usize>: Debug + Send + Sync {
 
 /// A desired trajectory of any kind.
 #[derive(Debug, Clone)]
-pub enum Trajectory<T, const N: usize> {
+pub enum Trajectory<T: Scalar, const N: usize> {
     /// A Fourier series, its lanes side by side.
     Fourier(Fourier<T, N>),
     /// Any other motion, one per lane; lanes behind the last repeat it.
@@ -68,12 +69,16 @@ impl<T: Scalar, const N: usize> Trajectory<T, N> {
         }
     }
 
-    /// Desired motion at two instants, with the bits of [`Self::at`].
+    /// Desired motion at each of several instants, with the bits of [`Self::at`].
     #[inline(always)]
-    pub fn at_two(&self, times_s: [f64; 2]) -> [Desired<T, N>; 2] {
+    pub fn at_each(&self, times_s: &[f64], motions: &[Cell<Desired<T, N>>]) {
         match self {
-            Self::Fourier(fourier) => fourier.at_two(times_s),
-            Self::Motions(motions) => times_s.map(|time_s| number_by_number(motions, time_s)),
+            Self::Fourier(fourier) => fourier.at_each(times_s, motions),
+            Self::Motions(each) => {
+                for n in 0..times_s.len() {
+                    motions[n].set(number_by_number(each, times_s[n]));
+                }
+            }
         }
     }
 }

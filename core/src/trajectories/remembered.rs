@@ -1,52 +1,82 @@
-//! A trajectory that remembers instants: integrators ask for each stage time several times, and for a step's two together.
+//! A trajectory that remembers instants: integrators ask for each stage time several times, and those of several steps are
+//! computed together, one not waiting for the other.
 
 use super::{Desired, Trajectory};
 use crate::scalar::Scalar;
 use std::cell::Cell;
 
-/// A trajectory with the motion at three instants: start, middle and end of the step that was foreseen last. An instant that was
-/// not foreseen takes the place of the start; adaptive steps and imperfect loops foresee none.
+/// Most instants that can be foreseen at once.
+pub const MOST_FORESEEN: usize = 8;
+
+/// A trajectory with the motion at the instants that were foreseen last and, in the first place, at the last of those foreseen before.
+/// An instant that was not foreseen takes the first place; adaptive steps and imperfect loops foresee none.
 #[derive(Debug, Clone)]
 pub struct Remembered<T: Scalar, const N: usize> {
     trajectory: Trajectory<T, N>,
-    times_s: [Cell<f64>; 3],
-    motions: [Cell<Desired<T, N>>; 3],
+    times_s: [Cell<f64>; 1 + MOST_FORESEEN],
+    motions: [Cell<Desired<T, N>>; 1 + MOST_FORESEEN],
+    /// Where the last instant was found: the next is there or in the place after it.
+    found: Cell<usize>,
+    /// The place of the last instant that was foreseen.
+    last: Cell<usize>,
 }
 
 impl<T: Scalar, const N: usize> Remembered<T, N> {
     /// Remembers the start.
     pub fn new(trajectory: Trajectory<T, N>) -> Self {
         let start = trajectory.at(0.0);
-        Self { trajectory, times_s: Default::default(), motions: std::array::from_fn(|_| Cell::new(start)) }
+        Self {
+            trajectory,
+            times_s: Default::default(),
+            motions: std::array::from_fn(|_| Cell::new(start)),
+            found: Cell::new(0),
+            last: Cell::new(0),
+        }
     }
 
     /// Desired motion at `time_s`: the same bits as the trajectory itself gives.
     #[inline(always)]
     pub fn at(&self, time_s: f64) -> Desired<T, N> {
-        let remembered = self.times_s.iter().position(|at| at.get().to_bits() == time_s.to_bits());
+        let is_at = |n: usize| self.times_s[n].get().to_bits() == time_s.to_bits();
+        let found = self.found.get().min(MOST_FORESEEN);
         // One place to read from, whether it was remembered or not: the compiler then reads each number when it is needed and keeps no
         // copy of all, which would have to be written before it is read.
-        self.motions[remembered.unwrap_or_else(|| self.remember(time_s))].get()
+        let place = if is_at(found) {
+            found
+        } else if is_at((found + 1).min(MOST_FORESEEN)) {
+            (found + 1).min(MOST_FORESEEN)
+        } else {
+            self.search(time_s)
+        };
+        self.found.set(place);
+        self.motions[place].get()
     }
 
-    /// Computes an instant in the place of the start; gives that place.
-    #[inline(always)]
-    fn remember(&self, time_s: f64) -> usize {
-        self.times_s[0].set(time_s);
-        self.motions[0].set(self.trajectory.at(time_s));
-        0
+    /// The place of an instant that may be anywhere; computed in the first place where it is nowhere.
+    #[inline(never)]
+    fn search(&self, time_s: f64) -> usize {
+        let remembered = self.times_s.iter().position(|at| at.get().to_bits() == time_s.to_bits());
+        remembered.unwrap_or_else(|| {
+            self.times_s[0].set(time_s);
+            self.motions[0].set(self.trajectory.at(time_s));
+            0
+        })
     }
 
-    /// Computes a step's middle and end together; the end of the step before stays, where this one starts.
+    /// Computes the next instants together, [`MOST_FORESEEN`] at most.
     #[inline(always)]
-    pub fn foresee(&self, times_s: [f64; 2]) {
-        self.times_s[0].set(self.times_s[2].get());
-        self.motions[0].set(self.motions[2].get());
-        let desired = self.trajectory.at_two(times_s);
-        for n in 0..2 {
-            self.times_s[n + 1].set(times_s[n]);
-            self.motions[n + 1].set(desired[n]);
+    pub fn foresee(&self, times_s: &[f64]) {
+        let last = self.last.get();
+        self.times_s[0].set(self.times_s[last].get());
+        self.motions[0].set(self.motions[last].get());
+        let count = times_s.len().min(MOST_FORESEEN);
+        let (times, motions) = (&self.times_s[1..=count], &self.motions[1..=count]);
+        for n in 0..count {
+            times[n].set(times_s[n]);
         }
+        self.trajectory.at_each(&times_s[..count], motions);
+        self.found.set(0);
+        self.last.set(count);
     }
 }
 
@@ -66,14 +96,14 @@ mod tests {
         for n in 0..50_u32 {
             let (start, end) = (f64::from(n) * 1e-3, f64::from(n + 1) * 1e-3);
             if n % 3 != 1 {
-                remembered.foresee([start + 0.5e-3, end]);
+                let next = f64::from(n + 2) * 1e-3;
+                remembered.foresee(&[start + 0.5e-3, end, end + 0.5e-3, next][..2 + 2 * (n as usize % 2)]);
             }
             [start, start + 0.5e-3, start + 0.5e-3, end, 7.0, end].into_iter().for_each(examine);
         }
         // Beyond what the argument's reduction keeps accurate, too.
         let times_s = [2e5, 0.3];
-        for (desired, time_s) in trajectory.at_two(times_s).into_iter().zip(times_s) {
-            assert_eq!(bits(desired), bits(trajectory.at(time_s)));
-        }
+        remembered.foresee(&times_s);
+        times_s.into_iter().for_each(examine);
     }
 }
