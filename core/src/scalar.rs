@@ -126,10 +126,20 @@ pub trait Scalar:
     }
 }
 
-/// Zero where every number is finite: zero times a number that is not is no number.
+/// Zero where every number is finite, no number elsewhere.
 #[inline(always)]
 pub(crate) fn zero_where_finite<T: Scalar>(numbers: &[T]) -> T {
-    // Several sums side by side have less to wait for.
+    if T::LANES == 1 {
+        // By their bits, which compilers look at many at a time: adding a one to an exponent of all ones carries into the sign's place.
+        const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+        const ONE: u64 = 0x0010_0000_0000_0000;
+        let mut carries = 0;
+        for n in 0..numbers.len() {
+            carries |= (numbers[n].lane(0).to_bits() & EXPONENT) + ONE;
+        }
+        return T::splat(if carries >> 63 == 0 { 0.0 } else { f64::NAN });
+    }
+    // Zero times a number that is not finite is no number. Several sums side by side have less to wait for.
     let mut zeros = [T::zero(); 8];
     let (blocks, rest) = numbers.as_chunks::<8>();
     for n in 0..blocks.len() {
