@@ -56,13 +56,15 @@ impl<T: Scalar, const P: usize> Projection<T, P> {
     pub fn correction<S: Scalar + Pack<T>>(&self, i: usize, theta_hat: S, drive: S) -> S {
         let from = |bounds: &SVector<T, P>| <S as Pack<T>>::load(&bounds.as_slice()[i..]);
         let (below, above) = (from(&self.lower) - theta_hat, theta_hat - from(&self.upper));
-        // Where estimates are nearly always, it takes no division.
+        // Where estimates are nearly always, it takes no division; where one is beyond a bound, one division.
         let zero = <S as Zero>::zero();
-        if !S::any(zero.less_than(below)) && !S::any(zero.less_than(above)) {
+        let (is_below, is_above) = (S::any(zero.less_than(below)), S::any(zero.less_than(above)));
+        if !is_below && !is_above {
             return zero;
         }
-        let share = fraction(above, from(&self.upper_margin)) - fraction(below, from(&self.lower_margin));
-        share * <S as Pack<T>>::repeat(self.strength) * drive.abs()
+        let upper = if is_above { fraction(above, from(&self.upper_margin)) } else { zero };
+        let lower = if is_below { fraction(below, from(&self.lower_margin)) } else { zero };
+        (upper - lower) * <S as Pack<T>>::repeat(self.strength) * drive.abs()
     }
 }
 
