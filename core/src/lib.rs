@@ -31,6 +31,7 @@ pub mod robots;
 pub mod scalar;
 pub mod scenario;
 pub mod simulation;
+mod spare;
 mod sum;
 pub mod trajectories;
 mod transcendental;

@@ -1,6 +1,7 @@
 //! Recordings: what a run leaves behind, one row per sample and one for its end, in SI units; and the hash over their bits.
 
 use crate::scalar::{Scalar, are_finite};
+use crate::spare;
 use nalgebra::SVector;
 use std::fmt::Write;
 
@@ -112,10 +113,16 @@ pub struct Recording {
     rows: Vec<f64>,
 }
 
+impl Drop for Recording {
+    fn drop(&mut self) {
+        spare::give(std::mem::take(&mut self.rows));
+    }
+}
+
 impl Recording {
     /// Empty, with room for `samples` rows.
     pub fn with_capacity(columns: Columns, samples: usize) -> Self {
-        Self { columns, rows: Vec::with_capacity(columns.width() * samples) }
+        Self { columns, rows: spare::take(columns.width() * samples) }
     }
 
     /// From rows as [`Recording::rows`] gives them; `None` where they end in the middle of a row.
@@ -154,8 +161,8 @@ impl Recording {
     }
 
     /// All rows, given away.
-    pub(crate) fn into_rows(self) -> Vec<f64> {
-        self.rows
+    pub(crate) fn into_rows(mut self) -> Vec<f64> {
+        std::mem::take(&mut self.rows)
     }
 
     /// Number of rows.
