@@ -19,8 +19,9 @@ pub struct Rk4<T> {
 impl<T: Scalar> Rk4<T> {
     /// Work space for `len` states.
     pub fn new(len: usize) -> Self {
-        let zeros = || Aligned::repeat(T::zero(), len);
-        Self { sum: zeros(), slope: zeros(), stage: zeros() }
+        // The state itself begins where a page does.
+        let zeros = |n| Aligned::apart(T::zero(), len, n);
+        Self { sum: zeros(1), slope: zeros(2), stage: zeros(3) }
     }
 
     /// The instant between a step's ends at which it evaluates twice.

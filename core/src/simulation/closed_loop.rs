@@ -24,8 +24,10 @@ pub enum InitialVelocity {
     Rest,
 }
 
-/// A robot under adaptive control; `V` the velocity source, `A` the adaptation law.
+/// A robot under adaptive control; `V` the velocity source, `A` the adaptation law. It begins where a page does, so that where its numbers lie
+/// relative to the integrator's arrays is not left to chance ([`crate::integrators::Aligned`]).
 #[derive(Debug, Clone)]
+#[repr(align(4096))]
 pub struct ClosedLoop<R, V, A, T: Scalar, const N: usize, const P: usize> {
     /// The arm.
     pub plant: Plant<R, T, N, P>,
