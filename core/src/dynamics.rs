@@ -38,13 +38,18 @@ impl<T: Scalar> FrictionSign<T> {
     /// `sgn(v)` per joint, as regularised.
     #[inline(always)]
     pub fn of<const N: usize>(&self, v: &SVector<T, N>) -> SVector<T, N> {
-        let [sign] = self.of_each([v]);
+        let ([sign], []) = self.of_each([v], [], &[]);
         sign
     }
 
-    /// `sgn(v)` of several velocities: side by side, where the machine can.
+    /// `sgn(v)` of several velocities, and sine and cosine of those angles (rad) that are `wanted`: side by side, where the machine can.
     #[inline(always)]
-    pub fn of_each<const N: usize, const K: usize>(&self, v: [&SVector<T, N>; K]) -> [SVector<T, N>; K] {
+    pub fn of_each<const N: usize, const K: usize, const A: usize>(
+        &self,
+        v: [&SVector<T, N>; K],
+        angles: [T; A],
+        wanted: &[bool; A],
+    ) -> ([SVector<T, N>; K], [(T, T); A]) {
         let mut sign = [[T::zero(); N]; K];
         for k in 0..K {
             for i in 0..N {
@@ -54,14 +59,15 @@ impl<T: Scalar> FrictionSign<T> {
                 };
             }
         }
-        if let Self::Tanh { .. } = self {
-            T::tanh_each(sign.as_flattened_mut());
-        }
+        let sines = match self {
+            Self::Tanh { .. } => T::tanh_and_sin_cos(sign.as_flattened_mut(), angles, wanted),
+            Self::True => T::tanh_and_sin_cos(&mut [], angles, wanted),
+        };
         let mut vectors = [SVector::<T, N>::zeros(); K];
         for k in 0..K {
             vectors[k].copy_from_slice(&sign[k]);
         }
-        vectors
+        (vectors, sines)
     }
 }
 

@@ -90,19 +90,28 @@ pub trait Scalar:
     fn splat(value: f64) -> Self;
     /// `(sin x, cos x)`; `x` in rad.
     fn sin_cos(self) -> (Self, Self);
-    /// `(sin a, cos a)` and `(sin b, cos b)`, with the bits of [`Scalar::sin_cos`].
-    #[inline(always)]
-    fn sin_cos_of_two(a: Self, b: Self) -> ((Self, Self), (Self, Self)) {
-        (a.sin_cos(), b.sin_cos())
-    }
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
-    /// Hyperbolic tangent of each number, with the bits of [`Scalar::tanh`].
+    /// Hyperbolic tangent of each of `x`, in place, and `(sin, cos)` of those angles (rad) that are `wanted`, zeros of the others; all
+    /// side by side, with the bits of [`Scalar::tanh`] and [`Scalar::sin_cos`].
     #[inline(always)]
-    fn tanh_each(x: &mut [Self]) {
+    fn tanh_and_sin_cos<const A: usize>(x: &mut [Self], angles: [Self; A], wanted: &[bool; A]) -> [(Self, Self); A] {
         for x in x {
             *x = x.tanh();
         }
+        let mut sines = [(Self::zero(), Self::zero()); A];
+        for n in 0..A {
+            if wanted[n] {
+                sines[n] = angles[n].sin_cos();
+            }
+        }
+        sines
+    }
+    /// The same two numbers. Where the compiler would compute first all that follows from the one and then all that follows from the
+    /// other, it may not go on with either before it has both.
+    #[inline(always)]
+    fn in_step(one: Self, other: Self) -> (Self, Self) {
+        (one, other)
     }
     /// Absolute value.
     fn abs(self) -> Self;

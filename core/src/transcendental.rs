@@ -36,21 +36,40 @@ const fn inverse_factorial(n: u32) -> f64 {
     1.0 / product
 }
 
-/// `Σ c_k z^k` in pairs, which leaves less to wait for than Horner's scheme.
-#[inline(always)]
-fn series<T: Scalar, const K: usize>(c: [f64; K], z: T) -> T {
-    let z2 = z * z;
-    let mut sum = pair(&c, (K - 1) / 2 * 2, z);
-    for k in (0..(K - 1) / 2).rev() {
-        sum = sum * z2 + pair(&c, 2 * k, z);
-    }
-    sum
+/// A power series `Σ c_k z^k` being summed in pairs from the last to the first, which leaves less to wait for than Horner's scheme.
+#[derive(Clone, Copy)]
+struct Series<T, const K: usize> {
+    coefficients: &'static [f64; K],
+    z: T,
+    z2: T,
+    sum: T,
 }
 
-/// `c_k + c_{k+1} z`.
-#[inline(always)]
-fn pair<T: Scalar, const K: usize>(c: &[f64; K], k: usize, z: T) -> T {
-    if k + 1 < K { T::splat(c[k]) + T::splat(c[k + 1]) * z } else { T::splat(c[k]) }
+impl<T: Scalar, const K: usize> Series<T, K> {
+    /// Pairs that follow the last.
+    const STEPS: usize = (K - 1) / 2;
+
+    /// With its last pair summed.
+    #[inline(always)]
+    fn new(coefficients: &'static [f64; K], z: T) -> Self {
+        let series = Self { coefficients, z, z2: z * z, sum: T::zero() };
+        Self { sum: series.pair(2 * Self::STEPS), ..series }
+    }
+
+    /// Adds the pair that is `step`th after the last, counted from 0; nothing where there is none.
+    #[inline(always)]
+    fn step(&mut self, step: usize) {
+        if step < Self::STEPS {
+            self.sum = self.sum * self.z2 + self.pair(2 * (Self::STEPS - 1 - step));
+        }
+    }
+
+    /// `c_k + c_{k+1} z`.
+    #[inline(always)]
+    fn pair(&self, k: usize) -> T {
+        let c = self.coefficients;
+        if k + 1 < K { T::splat(c[k]) + T::splat(c[k + 1]) * self.z } else { T::splat(c[k]) }
+    }
 }
 
 #[inline(always)]
@@ -58,9 +77,17 @@ fn round<T: Scalar>(x: T) -> T {
     (x + T::splat(ROUNDING)) - T::splat(ROUNDING)
 }
 
-/// `(sin x, cos x)`; `x` in rad.
-#[inline(always)]
-pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
+/// An angle on its way to sine and cosine: `x = n π/2 + r + tail` with `|r| ≤ π/4`, and series in r².
+#[derive(Clone, Copy)]
+struct Turn<T> {
+    n: T,
+    r: T,
+    tail: T,
+    sine: Series<T, 8>,
+    cosine: Series<T, 7>,
+}
+
+impl<T: Scalar> Turn<T> {
     const SINE: [f64; 8] = [
         -inverse_factorial(3),
         inverse_factorial(5),
@@ -80,30 +107,48 @@ pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
         -inverse_factorial(14),
         inverse_factorial(16),
     ];
-    // x = n π/2 + r + tail with |r| ≤ π/4: the third part and what its subtraction loses are added last.
-    let n = round(x * T::splat(std::f64::consts::FRAC_2_PI));
-    let first = x - n * T::splat(HALF_PI[0]);
-    let second = n * T::splat(HALF_PI[1]);
-    let near = first - second;
-    let third = n * T::splat(HALF_PI[2]) - ((first - near) - second);
-    let r = near - third;
-    let tail = (near - r) - third;
 
-    let z = r * r;
-    let half = T::splat(0.5);
-    let sine = r + (tail * (T::one() - half * z) + z * r * series(SINE, z));
-    let half_z = half * z;
-    let top = T::one() - half_z;
-    let cosine = top + (((T::one() - top) - half_z) + (z * z * series(COSINE, z) - r * tail));
+    #[inline(always)]
+    fn of(x: T) -> Self {
+        // The third part and what its subtraction loses are added last.
+        let n = round(x * T::splat(std::f64::consts::FRAC_2_PI));
+        let first = x - n * T::splat(HALF_PI[0]);
+        let second = n * T::splat(HALF_PI[1]);
+        let near = first - second;
+        let third = n * T::splat(HALF_PI[2]) - ((first - near) - second);
+        let r = near - third;
+        let tail = (near - r) - third;
+        let z = r * r;
+        Self { n, r, tail, sine: Series::new(&Self::SINE, z), cosine: Series::new(&Self::COSINE, z) }
+    }
 
-    let (odd, sine_negative, cosine_negative) = n.quadrant();
-    let (sin, cos) = (T::select(odd, cosine, sine), T::select(odd, sine, cosine));
-    (T::select(sine_negative, -sin, sin), T::select(cosine_negative, -cos, cos))
+    /// `(sin x, cos x)`, once the series are summed.
+    #[inline(always)]
+    fn sin_cos(self) -> (T, T) {
+        let Self { n, r, tail, sine: Series { z, sum: sine, .. }, cosine: Series { sum: cosine, .. } } = self;
+        let half = T::splat(0.5);
+        let sine = r + (tail * (T::one() - half * z) + z * r * sine);
+        let half_z = half * z;
+        let top = T::one() - half_z;
+        let cosine = top + (((T::one() - top) - half_z) + (z * z * cosine - r * tail));
+
+        let (odd, sine_negative, cosine_negative) = n.quadrant();
+        let (sin, cos) = (T::select(odd, cosine, sine), T::select(odd, sine, cosine));
+        (T::select(sine_negative, -sin, sin), T::select(cosine_negative, -cos, cos))
+    }
 }
 
-/// `tanh x = t/(t + 2)` with `t = e^{2|x|} − 1`.
-#[inline(always)]
-pub(crate) fn tanh<T: Scalar>(x: T) -> T {
+/// A number on its way to its hyperbolic tangent `t/(t + 2)`, `t = e^{2|x|} − 1`: `2|x| = n ln 2 + r + tail` with
+/// `|r| ≤ ½ ln 2`, and a series in r.
+#[derive(Clone, Copy)]
+struct Exponent<T> {
+    x: T,
+    n: T,
+    tail: T,
+    cubic: Series<T, 11>,
+}
+
+impl<T: Scalar> Exponent<T> {
     const CUBIC: [f64; 11] = [
         inverse_factorial(3),
         inverse_factorial(4),
@@ -117,23 +162,87 @@ pub(crate) fn tanh<T: Scalar>(x: T) -> T {
         inverse_factorial(12),
         inverse_factorial(13),
     ];
-    let limit = T::splat(TANH_LIMIT);
-    let magnitude = x.abs();
-    let magnitude = T::select(limit.less_than(magnitude), limit, magnitude);
-    // 2|x| = n ln 2 + r + tail with |r| ≤ ½ ln 2.
-    let doubled = magnitude + magnitude;
-    let n = round(doubled * T::splat(std::f64::consts::LOG2_E));
-    let high = doubled - n * T::splat(LN_2[0]);
-    let low = n * T::splat(LN_2[1]);
-    let r = high - low;
-    let tail = (high - r) - low;
 
-    let z = r * r;
-    let exponential = r + (T::splat(0.5) * z + (z * r * series(CUBIC, r) + (tail + tail * r)));
-    let power = n.power_of_two();
-    let t = power * exponential + (power - T::one());
-    let tanh = t / (t + T::splat(2.0));
-    T::select(x.less_than(T::zero()), -tanh, tanh)
+    #[inline(always)]
+    fn of(x: T) -> Self {
+        let limit = T::splat(TANH_LIMIT);
+        let magnitude = x.abs();
+        let magnitude = T::select(limit.less_than(magnitude), limit, magnitude);
+        let doubled = magnitude + magnitude;
+        let n = round(doubled * T::splat(std::f64::consts::LOG2_E));
+        let high = doubled - n * T::splat(LN_2[0]);
+        let low = n * T::splat(LN_2[1]);
+        let r = high - low;
+        let tail = (high - r) - low;
+        Self { x, n, tail, cubic: Series::new(&Self::CUBIC, r) }
+    }
+
+    /// `tanh x`, once the series is summed.
+    #[inline(always)]
+    fn tanh(self) -> T {
+        let Self { x, n, tail, cubic: Series { z: r, z2: z, sum, .. } } = self;
+        let exponential = r + (T::splat(0.5) * z + (z * r * sum + (tail + tail * r)));
+        let power = n.power_of_two();
+        let t = power * exponential + (power - T::one());
+        let tanh = t / (t + T::splat(2.0));
+        T::select(x.less_than(T::zero()), -tanh, tanh)
+    }
+}
+
+/// `(sin x, cos x)`; `x` in rad.
+#[inline(always)]
+pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
+    tanh_and_sin_cos([], [x]).1[0]
+}
+
+/// `tanh x`.
+#[inline(always)]
+pub(crate) fn tanh<T: Scalar>(x: T) -> T {
+    tanh_and_sin_cos([x], []).0[0]
+}
+
+/// Hyperbolic tangents, and sines and cosines of angles in rad, in step: each series is a chain in which every instruction waits for the
+/// one before, and processors do not look far enough ahead to find the next chain by themselves.
+#[inline(always)]
+pub(crate) fn tanh_and_sin_cos<T: Scalar, const X: usize, const A: usize>(
+    x: [T; X],
+    angles: [T; A],
+) -> ([T; X], [(T, T); A]) {
+    const STEPS: usize = 5;
+    let (mut exponents, mut turns) = ([Exponent::of(T::zero()); X], [Turn::of(T::zero()); A]);
+    for n in 0..X {
+        exponents[n] = Exponent::of(x[n]);
+    }
+    for n in 0..A {
+        turns[n] = Turn::of(angles[n]);
+    }
+    for step in 0..STEPS {
+        for n in 0..X {
+            exponents[n].cubic.step(step);
+        }
+        for n in 0..A {
+            turns[n].sine.step(step);
+            turns[n].cosine.step(step);
+        }
+        for n in 1..X {
+            let (one, other) = T::in_step(exponents[n - 1].cubic.sum, exponents[n].cubic.sum);
+            (exponents[n - 1].cubic.sum, exponents[n].cubic.sum) = (one, other);
+        }
+        for n in 0..A.min(X) {
+            let (one, other) = T::in_step(exponents[n].cubic.sum, turns[n].sine.sum);
+            (exponents[n].cubic.sum, turns[n].sine.sum) = (one, other);
+            let (one, other) = T::in_step(turns[n].sine.sum, turns[n].cosine.sum);
+            (turns[n].sine.sum, turns[n].cosine.sum) = (one, other);
+        }
+    }
+    let (mut tangents, mut sines) = ([T::zero(); X], [(T::zero(), T::zero()); A]);
+    for n in 0..X {
+        tangents[n] = exponents[n].tanh();
+    }
+    for n in 0..A {
+        sines[n] = turns[n].sin_cos();
+    }
+    (tangents, sines)
 }
 
 #[cfg(test)]

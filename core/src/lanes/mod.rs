@@ -22,6 +22,10 @@ pub(crate) use x86_64::{F64x2, F64x4, F64x8};
 
 use crate::scalar::{Kernel, Scalar};
 
+/// How many hyperbolic tangents are computed in step: with what they need, they fill the registers. Browsers order instructions themselves.
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+const IN_STEP: usize = if cfg!(target_arch = "wasm32") { 1 } else { 3 };
+
 /// Something to do with a kind of lanes that this machine has.
 pub(crate) trait WithLanes {
     /// What comes of it.
@@ -103,6 +107,32 @@ macro_rules! impl_scalar {
             #[inline(always)]
             fn tanh(self) -> Self {
                 transcendental::tanh(self)
+            }
+            #[inline(always)]
+            fn tanh_and_sin_cos<const A: usize>(
+                x: &mut [Self],
+                angles: [Self; A],
+                wanted: &[bool; A],
+            ) -> [(Self, Self); A] {
+                let (together, rest) = x.as_chunks_mut::<{ $crate::lanes::IN_STEP }>();
+                for n in 0..together.len() {
+                    together[n] = transcendental::tanh_and_sin_cos(together[n], []).0;
+                }
+                for n in 0..rest.len() {
+                    rest[n] = rest[n].tanh();
+                }
+                let mut sines = [(Self::repeat(0.0), Self::repeat(0.0)); A];
+                for n in 0..A {
+                    if wanted[n] {
+                        sines[n] = angles[n].sin_cos();
+                    }
+                }
+                sines
+            }
+            #[cfg(target_arch = "x86_64")]
+            #[inline(always)]
+            fn in_step(one: Self, other: Self) -> (Self, Self) {
+                Self::held(one, other)
             }
             #[inline(always)]
             fn abs(self) -> Self {

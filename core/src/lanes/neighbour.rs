@@ -9,8 +9,9 @@
 use super::F64x2 as Vector;
 #[cfg(target_arch = "x86_64")]
 use super::F64x4 as Vector;
-use super::impl_scalar;
+use super::{IN_STEP, impl_scalar};
 use crate::scalar::{Kernel, MOST_PACKED, Pack, Scalar};
+use crate::transcendental::{SIN_COS_LIMIT, tanh_and_sin_cos};
 
 /// One number.
 #[derive(Clone, Copy)]
@@ -98,6 +99,40 @@ impl Pack<Neighbour> for Vector {
     }
 }
 
+/// Tangents, in place, the first [`IN_STEP`] vectors of them in step with the sines and cosines of these angles. Vectors that are not full cost
+/// as much as full ones.
+#[inline(always)]
+fn in_step<const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vector, Vector); A] {
+    let (first, rest) = x.split_at_mut(x.len().min(IN_STEP * Vector::LANES));
+    let sines = match first.len().div_ceil(Vector::LANES) {
+        0 => vectors::<0, A>(first, angles),
+        1 => vectors::<1, A>(first, angles),
+        2 => vectors::<2, A>(first, angles),
+        _ => vectors::<IN_STEP, A>(first, angles),
+    };
+    for x in rest.chunks_mut(Vector::LANES) {
+        vectors::<1, 0>(x, []);
+    }
+    sines
+}
+
+/// The same for what fits `X` vectors.
+#[inline(always)]
+fn vectors<const X: usize, const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vector, Vector); A] {
+    let mut filled = [[Neighbour(0.0); Vector::LANES]; X];
+    filled.as_flattened_mut()[..x.len()].copy_from_slice(x);
+    let mut packs = [Vector::repeat(0.0); X];
+    for n in 0..X {
+        packs[n] = Pack::load(&filled[n]);
+    }
+    let (packs, sines) = tanh_and_sin_cos(packs, angles);
+    for n in 0..X {
+        packs[n].store(&mut filled[n]);
+    }
+    x.copy_from_slice(&filled.as_flattened()[..x.len()]);
+    sines
+}
+
 impl Scalar for Neighbour {
     type Mask = bool;
     type Pack = Vector;
@@ -125,27 +160,41 @@ impl Scalar for Neighbour {
         (Self(sin), Self(cos))
     }
     #[inline(always)]
-    fn sin_cos_of_two(a: Self, b: Self) -> ((Self, Self), (Self, Self)) {
-        let ((sin_a, cos_a), (sin_b, cos_b)) = f64::sin_cos_of_two(a.0, b.0);
-        ((Self(sin_a), Self(cos_a)), (Self(sin_b), Self(cos_b)))
-    }
-    #[inline(always)]
     fn tanh(self) -> Self {
         Self(Scalar::tanh(self.0))
     }
     #[inline(always)]
-    fn tanh_each(x: &mut [Self]) {
-        let (together, rest) = x.as_chunks_mut::<{ Vector::LANES }>();
-        for together in together {
-            <Vector as Pack<Self>>::load(together).tanh().store(together);
+    fn tanh_and_sin_cos<const A: usize>(x: &mut [Self], angles: [Self; A], wanted: &[bool; A]) -> [(Self, Self); A] {
+        let mut sines = [(Self(0.0), Self(0.0)); A];
+        // The first of those wanted, in one vector.
+        let (mut first, mut count) = ([Self(0.0); Vector::LANES], 0);
+        for n in 0..A {
+            if wanted[n] && count < Vector::LANES {
+                first[count] = angles[n];
+                count += 1;
+            }
         }
-        if !rest.is_empty() {
-            // A vector that is not full costs as much as one number.
-            let mut filled = [Self(0.0); Vector::LANES];
-            filled[..rest.len()].copy_from_slice(rest);
-            <Vector as Pack<Self>>::load(&filled).tanh().store(&mut filled);
-            rest.copy_from_slice(&filled[..rest.len()]);
+        let first = <Vector as Pack<Self>>::load(&first);
+        let is_beyond = Vector::any(Vector::repeat(SIN_COS_LIMIT).less_than(first.abs()));
+        let (sin, cos) = if count == 0 || is_beyond {
+            // Written out here for the second time: passed to another function, the numbers would have to be kept in memory.
+            in_step(x, []);
+            first.sin_cos()
+        } else {
+            in_step(x, [first])[0]
+        };
+        let mut place = 0;
+        for n in 0..A {
+            if wanted[n] {
+                sines[n] = if place < Vector::LANES {
+                    (Self(sin.lane(place)), Self(cos.lane(place)))
+                } else {
+                    angles[n].sin_cos()
+                };
+                place += 1;
+            }
         }
+        sines
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -204,7 +253,7 @@ mod tests {
                     let (x, y) = (load(Neighbour::of(&self.0)), load(Neighbour::of(&self.1)));
                     let three = <Vector as Pack<Neighbour>>::repeat(Neighbour(3.0));
                     Pack::store(x * three + y - x * y, Neighbour::of_mut(&mut out));
-                    Neighbour::tanh_each(Neighbour::of_mut(&mut self.0));
+                    Neighbour::tanh_and_sin_cos(Neighbour::of_mut(&mut self.0), [], &[]);
                     (out, self.0)
                 }
             }

@@ -44,22 +44,25 @@ impl Scalar for f64 {
     }
     #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
     #[inline(always)]
-    fn sin_cos_of_two(a: Self, b: Self) -> ((Self, Self), (Self, Self)) {
-        let (sin, cos) = F64x2::from_array([a, b]).sin_cos();
-        let ([sin_a, sin_b], [cos_a, cos_b]) = (sin.to_array(), cos.to_array());
-        ((sin_a, cos_a), (sin_b, cos_b))
-    }
-    #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
-    #[inline(always)]
-    fn tanh_each(x: &mut [Self]) {
-        let (pairs, rest) = x.as_chunks_mut();
-        for pair in pairs {
-            *pair = F64x2::from_array(*pair).tanh().to_array();
+    fn tanh_and_sin_cos<const A: usize>(x: &mut [Self], angles: [Self; A], wanted: &[bool; A]) -> [(Self, Self); A] {
+        tanh_each(x);
+        let mut sines = [(0.0, 0.0); A];
+        let mut single = None;
+        for n in 0..A {
+            if wanted[n] {
+                single = match single {
+                    None => Some(n),
+                    Some(before) => {
+                        (sines[before], sines[n]) = sin_cos_of_two(angles[before], angles[n]);
+                        None
+                    }
+                };
+            }
         }
-        for x in rest {
-            // Named in full: a number's own method of this name is the platform's.
-            *x = Scalar::tanh(*x);
+        if let Some(n) = single {
+            sines[n] = Scalar::sin_cos(angles[n]);
         }
+        sines
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -85,5 +88,26 @@ impl Scalar for f64 {
     #[inline(always)]
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+#[inline(always)]
+fn sin_cos_of_two(a: f64, b: f64) -> ((f64, f64), (f64, f64)) {
+    let (sin, cos) = F64x2::from_array([a, b]).sin_cos();
+    let ([sin_a, sin_b], [cos_a, cos_b]) = (sin.to_array(), cos.to_array());
+    ((sin_a, cos_a), (sin_b, cos_b))
+}
+
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+#[inline(always)]
+fn tanh_each(x: &mut [f64]) {
+    let (pairs, rest) = x.as_chunks_mut();
+    for pair in pairs {
+        *pair = F64x2::from_array(*pair).tanh().to_array();
+    }
+    for x in rest {
+        // Named in full: a number's own method of this name is the platform's.
+        *x = Scalar::tanh(*x);
     }
 }

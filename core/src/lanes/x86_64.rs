@@ -8,6 +8,7 @@
 use super::impl_scalar;
 use crate::scalar::{Kernel, MOST_PACKED, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
+use std::arch::asm;
 #[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
 use std::arch::x86_64::*;
 
@@ -31,7 +32,7 @@ pub(super) fn has_four() -> bool {
 /// A type of lanes from its vector, its mask and one intrinsic per operation.
 macro_rules! lanes {
     (
-        $(#[$doc:meta])* $lanes:ident, $width:literal, $vector:ty, $mask:ty, $features:literal,
+        $(#[$doc:meta])* $lanes:ident, $width:literal, $vector:ty, $mask:ty, $features:literal, $register:ident,
         $add:ident, $sub:ident, $mul:ident, $div:ident, $repeat:ident, $xor:ident, $andnot:ident,
         less: $less:expr, any: $any:expr, select: $select:expr,
         bit: $bit:expr, power: $power:expr,
@@ -118,6 +119,26 @@ macro_rules! lanes {
             fn last_bits_as_exponent(self) -> Self {
                 unsafe { Self($power(self.0)) }
             }
+            /// The same vectors, neither to be used before both are computed: for the compiler they come out of an instruction of which it knows
+            /// nothing, and which is none.
+            #[inline(always)]
+            fn held(one: Self, other: Self) -> (Self, Self) {
+                #[inline]
+                #[target_feature(enable = $features)]
+                fn with_instructions(mut one: $vector, mut other: $vector) -> ($vector, $vector) {
+                    unsafe {
+                        asm!(
+                            "/* {0} {1} */",
+                            inout($register) one,
+                            inout($register) other,
+                            options(pure, nomem, nostack, preserves_flags)
+                        );
+                    }
+                    (one, other)
+                }
+                let (one, other) = unsafe { with_instructions(one.0, other.0) };
+                (Self(one), Self(other))
+            }
             #[inline(always)]
             fn run_with_instructions<K: Kernel>(kernel: K) -> K::Output {
                 #[target_feature(enable = $features)]
@@ -133,7 +154,7 @@ macro_rules! lanes {
 
 lanes! {
     /// Two lanes, SSE2.
-    F64x2, 2, __m128d, __m128d, "sse2",
+    F64x2, 2, __m128d, __m128d, "sse2", xmm_reg,
     _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_set1_pd, _mm_xor_pd, _mm_andnot_pd,
     less: _mm_cmplt_pd,
     any: |mask| _mm_movemask_pd(mask) != 0,
@@ -148,7 +169,7 @@ lanes! {
 
 lanes! {
     /// Four lanes, AVX2.
-    F64x4, 4, __m256d, __m256d, "avx2",
+    F64x4, 4, __m256d, __m256d, "avx2", ymm_reg,
     _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_set1_pd, _mm256_xor_pd, _mm256_andnot_pd,
     less: _mm256_cmp_pd::<_CMP_LT_OQ>,
     any: |mask| _mm256_movemask_pd(mask) != 0,
@@ -160,7 +181,7 @@ lanes! {
 
 lanes! {
     /// Eight lanes, AVX-512.
-    F64x8, 8, __m512d, __mmask8, "avx512f,avx512dq",
+    F64x8, 8, __m512d, __mmask8, "avx512f,avx512dq", zmm_reg,
     _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_set1_pd, _mm512_xor_pd, _mm512_andnot_pd,
     less: _mm512_cmp_pd_mask::<_CMP_LT_OQ>,
     any: |mask: __mmask8| mask != 0,

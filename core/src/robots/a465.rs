@@ -202,11 +202,11 @@ impl Robot<N, P> for CrsA465 {
     const INERTIA_LIVE: [[bool; N]; N] = pattern_to_live(&[b"#..", b".##", b".##"]);
     const ENTRIES: &'static [(usize, usize)] = &list_entries::<N, P, { count_entries(&LIVE) }>(&LIVE);
     const PAIRS: &'static [(usize, usize)] = &list_pairs::<N, P, { count_pairs(&LIVE) }>(&LIVE);
+    const TURNS: [bool; N] = [false, true, true];
     const DATA: &'static RobotData = &DATA;
 
     #[inline(always)]
-    fn geometry<T: Scalar>(q: &SVector<T, N>) -> Geometry<T> {
-        let ((s2, c2), (s3, c3)) = T::sin_cos_of_two(q[1], q[2]);
+    fn geometry_of<T: Scalar>(&[_, (s2, c2), (s3, c3)]: &[(T, T); N]) -> Geometry<T> {
         let c23 = c2 * c3 - s2 * s3;
         let s23 = s2 * c3 + c2 * s3;
         let two = T::splat(2.0);

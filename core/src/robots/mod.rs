@@ -47,8 +47,16 @@ pub trait Robot<const N: usize, const P: usize>: Send + Sync + 'static {
     /// Names, units, data for people and limits.
     const DATA: &'static RobotData;
 
+    /// Joints on whose angles the geometry depends.
+    const TURNS: [bool; N] = [true; N];
+
     /// Geometry at joint angles `q` (rad).
-    fn geometry<T: Scalar>(q: &SVector<T, N>) -> Self::Geometry<T>;
+    #[inline(always)]
+    fn geometry<T: Scalar>(q: &SVector<T, N>) -> Self::Geometry<T> {
+        Self::geometry_of(&T::tanh_and_sin_cos(&mut [], (*q).into(), &Self::TURNS))
+    }
+    /// Geometry, given sine and cosine of the joint angles that count ([`Self::TURNS`]).
+    fn geometry_of<T: Scalar>(sines: &[(T, T); N]) -> Self::Geometry<T>;
 
     /// Regressor `Y(q, u, v, a)` with `Y θ = H(q) a + C(q, u) v + D v + F_c sgn(v) + g(q)`.
     /// `sign_v` is `sgn(v)`, regularised as the caller wishes. Units: rad/s, rad/s²; N·m per unit of θ. Source: paper eq. (2).

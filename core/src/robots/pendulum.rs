@@ -35,8 +35,8 @@ impl Robot<N, P> for Pendulum {
     const DATA: &'static RobotData = &DATA;
 
     #[inline(always)]
-    fn geometry<T: Scalar>(q: &SVector<T, N>) -> Geometry<T> {
-        Geometry { sin: q[0].sin_cos().0 }
+    fn geometry_of<T: Scalar>(&[(sin, _)]: &[(T, T); N]) -> Geometry<T> {
+        Geometry { sin }
     }
 
     #[inline(always)]

@@ -103,8 +103,7 @@ impl Robot<N, P> for TwoLink {
     const DATA: &'static RobotData = &DATA;
 
     #[inline(always)]
-    fn geometry<T: Scalar>(q: &SVector<T, N>) -> Geometry<T> {
-        let ((s1, c1), (s2, c2)) = T::sin_cos_of_two(q[0], q[1]);
+    fn geometry_of<T: Scalar>(&[(s1, c1), (s2, c2)]: &[(T, T); N]) -> Geometry<T> {
         Geometry { c1, c2, s2, c12: c1 * c2 - s1 * s2, s12: s1 * c2 + c1 * s2 }
     }
 

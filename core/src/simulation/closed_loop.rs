@@ -125,15 +125,17 @@ where
         let source_states = &x[layout.velocity_source..layout.theta_hat];
         let estimate = self.velocity_source.estimate(&position, &velocity, desired, source_states);
         let sliding = self.feedback.signals(&position, &estimate.velocity, desired);
-        let friction_sign = &self.plant.friction_sign;
-        let [sign_reference, sign_velocity, sign_estimate] = if A::FILTERS && !V::MEASURED {
-            friction_sign.of_each([&sliding.reference_velocity, &velocity, &estimate.velocity])
+        // Tangents and sines together, because the processor works on all at once.
+        let (friction_sign, angles) = (&self.plant.friction_sign, position.into());
+        let ([sign_reference, sign_velocity, sign_estimate], sines) = if A::FILTERS && !V::MEASURED {
+            let velocities = [&sliding.reference_velocity, &velocity, &estimate.velocity];
+            friction_sign.of_each(velocities, angles, &R::TURNS)
         } else {
-            let [reference, velocity] = friction_sign.of_each([&sliding.reference_velocity, &velocity]);
-            [reference, velocity, velocity]
+            let velocities = [&sliding.reference_velocity, &velocity];
+            let ([reference, velocity], sines) = friction_sign.of_each(velocities, angles, &R::TURNS);
+            ([reference, velocity, velocity], sines)
         };
-        // After the hyperbolic tangents, which need nothing of it: the processor works on both at once.
-        let geometry = R::geometry(&position);
+        let geometry = R::geometry_of(&sines);
         let regressor = R::regressor(
             &geometry,
             &sliding.coriolis_velocity,

@@ -95,8 +95,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
         let geometry = R::geometry(position);
         let estimate = self.velocity_source.estimate(position, velocity, desired, source);
         let sliding = self.feedback.signals(position, &estimate.velocity, desired);
-        let [sign_reference, sign_estimate] =
-            self.friction_sign.of_each([&sliding.reference_velocity, &estimate.velocity]);
+        let ([sign_reference, sign_estimate], []) =
+            self.friction_sign.of_each([&sliding.reference_velocity, &estimate.velocity], [], &[]);
         let regressor = R::regressor(
             &geometry,
             &sliding.coriolis_velocity,
