@@ -6,7 +6,7 @@
 //! `Yf(0) = 0`. One state per live entry of the regressor, and one per joint for the filtered torque `τf = W τ`.
 
 use crate::robots::{Regressor, Robot};
-use crate::scalar::Scalar;
+use crate::scalar::{MOST_PACKED, Pack, Scalar};
 use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
@@ -55,11 +55,47 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         let momentum = R::momentum_regressor(geometry, velocity);
         let x = &states[..R::ENTRIES.len()];
         let mut filtered = Regressor::<T, N, P>::zeros();
-        unrolled!(R::ENTRIES.len(), n => {
+        let bandwidth = <T::Pack as Pack<T>>::repeat(self.bandwidth);
+        unrolled!(Self::PACKS, pack => {
+            let start = pack * Self::WIDTH;
+            let x = T::Pack::load(&x[start..]);
+            let packed =
+                if Self::has_momentum(start) { bandwidth * Self::entries(&momentum, start) + x } else { x };
+            let mut numbers = [T::zero(); MOST_PACKED];
+            packed.store(&mut numbers);
+            for lane in 0..Self::WIDTH {
+                filtered[R::ENTRIES[start + lane]] = numbers[lane];
+            }
+        });
+        for n in Self::PACKS * Self::WIDTH..R::ENTRIES.len() {
             let entry = R::ENTRIES[n];
             filtered[entry] = self.filtered(&momentum, entry, x[n]);
-        });
+        }
         filtered
+    }
+
+    const WIDTH: usize = <T::Pack as Pack<T>>::WIDTH;
+    const PACKS: usize = R::ENTRIES.len() / Self::WIDTH;
+
+    /// Whether any of a pack's entries is live in the momentum.
+    #[inline(always)]
+    fn has_momentum(start: usize) -> bool {
+        let mut live = false;
+        for lane in 0..Self::WIDTH {
+            let (row, column) = R::ENTRIES[start + lane];
+            live |= R::MOMENTUM_LIVE[row][column];
+        }
+        live
+    }
+
+    /// Neighbouring entries of a regressor.
+    #[inline(always)]
+    fn entries(y: &Regressor<T, N, P>, start: usize) -> T::Pack {
+        let mut numbers = [T::zero(); MOST_PACKED];
+        for lane in 0..Self::WIDTH {
+            numbers[lane] = y[R::ENTRIES[start + lane]];
+        }
+        T::Pack::load(&numbers)
     }
 
     /// An entry of `Yf = λf P + x`.
@@ -80,10 +116,16 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
     ) {
         let balance = R::balance_regressor(geometry, velocity, sign_velocity);
         let x_rate = &mut rate[..R::ENTRIES.len()];
-        unrolled!(R::ENTRIES.len(), n => {
+        let bandwidth = <T::Pack as Pack<T>>::repeat(self.bandwidth);
+        unrolled!(Self::PACKS, pack => {
+            let start = pack * Self::WIDTH;
+            let rate = bandwidth * (Self::entries(&balance, start) - Self::entries(filtered, start));
+            rate.store(&mut x_rate[start..]);
+        });
+        for n in Self::PACKS * Self::WIDTH..R::ENTRIES.len() {
             let entry = R::ENTRIES[n];
             x_rate[n] = self.bandwidth * (balance[entry] - filtered[entry]);
-        });
+        }
     }
 
     /// Filtered torque `τf` (N·m), and writes `τf' = λf (τ − τf)`. Source: paper eq. (10).
