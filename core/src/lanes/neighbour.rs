@@ -103,7 +103,9 @@ impl Pack<Neighbour> for Vector {
 /// as much as full ones.
 #[inline(always)]
 fn in_step<const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vector, Vector); A] {
-    let (first, rest) = x.split_at_mut(x.len().min(IN_STEP * Vector::LANES));
+    // A loop alone where nothing is in step: a page loads each copy of what stands in it.
+    let together = if IN_STEP == 1 { 0 } else { x.len().min(IN_STEP * Vector::LANES) };
+    let (first, rest) = x.split_at_mut(together);
     let sines = match first.len().div_ceil(Vector::LANES) {
         0 => vectors::<0, A>(first, angles),
         1 => vectors::<1, A>(first, angles),
@@ -175,14 +177,14 @@ impl Scalar for Neighbour {
             }
         }
         let first = <Vector as Pack<Self>>::load(&first);
-        let is_beyond = Vector::any(Vector::repeat(SIN_COS_LIMIT).less_than(first.abs()));
-        let (sin, cos) = if count == 0 || is_beyond {
-            // Written out here for the second time: passed to another function, the numbers would have to be kept in memory.
-            in_step(x, []);
-            first.sin_cos()
-        } else {
-            in_step(x, [first])[0]
-        };
+        let (sin, cos) =
+            if IN_STEP == 1 || count == 0 || Vector::any(Vector::repeat(SIN_COS_LIMIT).less_than(first.abs())) {
+                // Not a function that is called: the numbers would have to be kept in memory for it.
+                in_step(x, []);
+                first.sin_cos()
+            } else {
+                in_step(x, [first])[0]
+            };
         let mut place = 0;
         for n in 0..A {
             if wanted[n] {
