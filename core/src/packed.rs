@@ -1,4 +1,4 @@
-//! A short vector, such as one number per joint, in packs: the last is filled up with zeros. Every number has the bits that it has alone.
+//! A short vector, such as one number per joint, in packs, the last filled up with numbers that nobody reads. Every number has the bits that it has alone.
 
 use crate::scalar::{MOST_PACKED, Pack, Scalar};
 use nalgebra::SVector;
@@ -6,7 +6,7 @@ use nalgebra::SVector;
 /// `N` numbers in packs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Packed<T: Scalar, const N: usize> {
-    /// As many as it takes; the rest is never looked at.
+    /// As many as it takes; nothing is computed with the rest.
     packs: [T::Pack; N],
 }
 

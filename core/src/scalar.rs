@@ -92,8 +92,8 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
-    /// Hyperbolic tangent of each of `x`, in place, and `(sin, cos)` of those angles (rad) that are `wanted`, zeros of the others; all
-    /// side by side, with the bits of [`Scalar::tanh`] and [`Scalar::sin_cos`].
+    /// Hyperbolic tangent of each of `x`, in place, and `(sin, cos)` of those angles (rad) that are `wanted`, zeros of the others;
+    /// side by side where the machine gains by it, with the bits of [`Scalar::tanh`] and [`Scalar::sin_cos`].
     #[inline(always)]
     fn tanh_and_sin_cos<const A: usize>(x: &mut [Self], angles: [Self; A], wanted: &[bool; A]) -> [(Self, Self); A] {
         for x in x {

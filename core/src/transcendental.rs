@@ -208,7 +208,8 @@ pub(crate) fn tanh_and_sin_cos<T: Scalar, const X: usize, const A: usize>(
     x: [T; X],
     angles: [T; A],
 ) -> ([T; X], [(T, T); A]) {
-    const STEPS: usize = 5;
+    // As many as the longest series takes.
+    const STEPS: usize = Series::<f64, 11>::STEPS;
     let (mut exponents, mut turns) = ([Exponent::of(T::zero()); X], [Turn::of(T::zero()); A]);
     for n in 0..X {
         exponents[n] = Exponent::of(x[n]);

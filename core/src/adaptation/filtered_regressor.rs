@@ -33,7 +33,8 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         let momentum = R::momentum_regressor(geometry, velocity);
         let (x, tau_f) = states.split_at_mut(R::ENTRIES.len());
         for (x, &entry) in x.iter_mut().zip(R::ENTRIES) {
-            *x = -self.bandwidth * momentum[entry];
+            // Subtracted, so that nothing starts at −0: packs add λf · 0 where an entry has no momentum, which would turn it into +0.
+            *x = T::zero() - self.bandwidth * momentum[entry];
         }
         tau_f.fill(T::zero());
     }

@@ -56,7 +56,7 @@ impl<T: Scalar, const P: usize> Projection<T, P> {
     pub fn correction<S: Scalar + Pack<T>>(&self, i: usize, theta_hat: S, drive: S) -> S {
         let from = |bounds: &SVector<T, P>| <S as Pack<T>>::load(&bounds.as_slice()[i..]);
         let (below, above) = (from(&self.lower) - theta_hat, theta_hat - from(&self.upper));
-        // Where estimates are nearly always, it takes no division; where one is beyond a bound, one division.
+        // Where estimates are nearly always, it takes no division; where one is beyond a bound, one per side.
         let zero = <S as Zero>::zero();
         let (is_below, is_above) = (S::any(zero.less_than(below)), S::any(zero.less_than(above)));
         if !is_below && !is_above {

@@ -13,7 +13,7 @@ const APART: usize = 576;
 /// Numbers from a known place in a page on, as many as at first. Not `Clone`: a derived copy would begin anywhere.
 #[derive(Debug)]
 pub struct Aligned<T> {
-    /// With room to begin where a page does.
+    /// With room to begin at that place.
     room: Vec<T>,
     start: usize,
     len: usize,

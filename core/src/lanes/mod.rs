@@ -122,11 +122,11 @@ macro_rules! impl_scalar {
                     rest[n] = rest[n].tanh();
                 }
                 let mut sines = [(Self::repeat(0.0), Self::repeat(0.0)); A];
-                for n in 0..A {
+                unrolled!(A, n => {
                     if wanted[n] {
                         sines[n] = angles[n].sin_cos();
                     }
-                }
+                });
                 sines
             }
             #[cfg(target_arch = "x86_64")]

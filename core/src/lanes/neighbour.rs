@@ -177,23 +177,36 @@ impl Scalar for Neighbour {
             }
         }
         let first = <Vector as Pack<Self>>::load(&first);
-        let (sin, cos) =
-            if IN_STEP == 1 || count == 0 || Vector::any(Vector::repeat(SIN_COS_LIMIT).less_than(first.abs())) {
-                // Not a function that is called: the numbers would have to be kept in memory for it.
-                in_step(x, []);
-                first.sin_cos()
-            } else {
-                in_step(x, [first])[0]
-            };
+        if count == 0 {
+            in_step(x, []);
+            return sines;
+        }
+        let (sin, cos) = if IN_STEP == 1 || Vector::any(Vector::repeat(SIN_COS_LIMIT).less_than(first.abs())) {
+            // Not a function that is called: the numbers would have to be kept in memory for it.
+            in_step(x, []);
+            first.sin_cos()
+        } else {
+            in_step(x, [first])[0]
+        };
         let mut place = 0;
         for n in 0..A {
             if wanted[n] {
-                sines[n] = if place < Vector::LANES {
-                    (Self(sin.lane(place)), Self(cos.lane(place)))
-                } else {
-                    angles[n].sin_cos()
-                };
+                if place < Vector::LANES {
+                    sines[n] = (Self(sin.lane(place)), Self(cos.lane(place)));
+                }
                 place += 1;
+            }
+        }
+        // Apart, so that it is no part of a module whose robots have no more angles than fit a vector.
+        if place > Vector::LANES {
+            place = 0;
+            for n in 0..A {
+                if wanted[n] {
+                    if place >= Vector::LANES {
+                        sines[n] = angles[n].sin_cos();
+                    }
+                    place += 1;
+                }
             }
         }
         sines

@@ -47,20 +47,20 @@ impl Scalar for f64 {
     fn tanh_and_sin_cos<const A: usize>(x: &mut [Self], angles: [Self; A], wanted: &[bool; A]) -> [(Self, Self); A] {
         tanh_each(x);
         let mut sines = [(0.0, 0.0); A];
-        let mut single = None;
+        let (mut places, mut count) = ([0; A], 0);
         for n in 0..A {
             if wanted[n] {
-                single = match single {
-                    None => Some(n),
-                    Some(before) => {
-                        (sines[before], sines[n]) = sin_cos_of_two(angles[before], angles[n]);
-                        None
-                    }
-                };
+                places[count] = n;
+                count += 1;
             }
         }
-        if let Some(n) = single {
-            sines[n] = Scalar::sin_cos(angles[n]);
+        for pair in 0..count / 2 {
+            let (a, b) = (places[2 * pair], places[2 * pair + 1]);
+            (sines[a], sines[b]) = sin_cos_of_two(angles[a], angles[b]);
+        }
+        if count % 2 == 1 {
+            let last = places[count - 1];
+            sines[last] = Scalar::sin_cos(angles[last]);
         }
         sines
     }

@@ -93,13 +93,74 @@ fn what_is_not_finite_stays_in_its_lane() {
     assert_eq!(with_lanes(3, SameBits { x: &x, y: &x }).map(|_| ()), None);
 }
 
+/// Tangents of `x`, and sines and cosines of some angles, together and alone.
+struct Together<'a> {
+    x: &'a [[f64; 8]],
+    angles: &'a [[f64; 8]; ANGLES],
+    wanted: [bool; ANGLES],
+}
+
+const ANGLES: usize = 5;
+
+struct Each<'a, T> {
+    x: &'a mut [T],
+    angles: [T; ANGLES],
+    wanted: &'a [bool; ANGLES],
+}
+
+impl<T: Scalar> Kernel for Each<'_, T> {
+    type Output = [(T, T); ANGLES];
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        T::tanh_and_sin_cos(self.x, self.angles, self.wanted)
+    }
+}
+
+impl WithLanes for Together<'_> {
+    type Output = Vec<(usize, f64, f64)>;
+    fn with<T: Scalar>(self) -> Self::Output {
+        let of = |numbers: &[f64; 8]| T::from_lanes(|n| numbers[n]);
+        let mut x: Vec<T> = self.x.iter().map(of).collect();
+        let sines = T::compiled(Each { x: &mut x, angles: self.angles.each_ref().map(of), wanted: &self.wanted });
+        let mut different = Vec::new();
+        for lane in 0..T::LANES {
+            let tangents = x.iter().zip(self.x).map(|(found, x)| (found.lane(lane), Scalar::tanh(x[lane])));
+            let sines = sines.iter().zip(self.angles).zip(self.wanted).flat_map(|(((sin, cos), angle), wanted)| {
+                let alone = if wanted { Scalar::sin_cos(angle[lane]) } else { (0.0, 0.0) };
+                [(sin.lane(lane), alone.0), (cos.lane(lane), alone.1)]
+            });
+            different.extend(tangents.chain(sines).enumerate().filter_map(|(place, (found, alone))| {
+                let is_same = found.to_bits() == alone.to_bits() || found.is_nan() && alone.is_nan();
+                (!is_same).then_some((place, found, alone))
+            }));
+        }
+        different
+    }
+}
+
+fn angles() -> impl Strategy<Value = [f64; 8]> {
+    prop::array::uniform8(
+        prop_oneof![20 => -30.0..30.0_f64, 1 => -2e5..2e5_f64, 1 => Just(f64::INFINITY), 1 => Just(f64::NAN)],
+    )
+}
+
 proptest! {
-    /// Lists of odd length too: their last number goes alone.
+    /// Lists of any length: the last vector is not full.
     #[test]
-    fn tangents_and_sines_of_several_have_the_bits_of_one(x in prop::array::uniform3(-30.0..30.0_f64)) {
-        let mut together = x;
-        let sines = f64::tanh_and_sin_cos(&mut together, x, &[true, false, true]);
-        prop_assert_eq!(together.map(f64::to_bits), x.map(|x| Scalar::tanh(x).to_bits()));
-        prop_assert_eq!(sines, [Scalar::sin_cos(x[0]), (0.0, 0.0), Scalar::sin_cos(x[2])]);
+    fn tangents_and_sines_of_several_have_the_bits_of_one(
+        x in prop::collection::vec(numbers(), 0..15),
+        angles in prop::array::uniform5(angles()),
+        wanted in any::<[bool; ANGLES]>(),
+    ) {
+        let together = || Together { x: &x, angles: &angles, wanted };
+        for width in widths() {
+            let different = with_lanes(*width, together()).unwrap();
+            prop_assert!(different.is_empty(), "{width} lanes: {different:?}");
+        }
+        #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+        if super::Neighbour::is_here() {
+            let different = together().with::<super::Neighbour>();
+            prop_assert!(different.is_empty(), "neighbours: {different:?}");
+        }
     }
 }

@@ -4,6 +4,7 @@
 use super::impl_scalar;
 use crate::scalar::{Kernel, MOST_PACKED, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
+use crate::unroll::unrolled;
 #[allow(clippy::wildcard_imports, reason = "twenty intrinsics")]
 use std::arch::wasm32::*;
 

@@ -2,12 +2,13 @@
 //!
 //! The unsafe code is that `std::arch` asks the caller to know that the machine has an instruction. Here
 //! [`super::with_lanes`] asks first, or who works with [`super::Neighbour`]; the types are the crate's own, and nothing else
-//! makes a value of them (docs/decisions/0015-lanes.md).
+//! makes a value of them (docs/decisions/0015-lanes.md). And one `asm!` without an instruction, which touches nothing but the two registers that it is given.
 #![allow(unsafe_code, reason = "each instruction's presence is checked before a value of its type can exist")]
 
 use super::impl_scalar;
 use crate::scalar::{Kernel, MOST_PACKED, Scalar};
 use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
+use crate::unroll::unrolled;
 use std::arch::asm;
 #[allow(clippy::wildcard_imports, reason = "fifty intrinsics")]
 use std::arch::x86_64::*;

@@ -55,7 +55,7 @@ pub trait Robot<const N: usize, const P: usize>: Send + Sync + 'static {
     fn geometry<T: Scalar>(q: &SVector<T, N>) -> Self::Geometry<T> {
         Self::geometry_of(&T::tanh_and_sin_cos(&mut [], (*q).into(), &Self::TURNS))
     }
-    /// Geometry, given sine and cosine of the joint angles that count ([`Self::TURNS`]).
+    /// Geometry, given `(sin q_i, cos q_i)` of each joint that counts ([`Self::TURNS`]).
     fn geometry_of<T: Scalar>(sines: &[(T, T); N]) -> Self::Geometry<T>;
 
     /// Regressor `Y(q, u, v, a)` with `Y θ = H(q) a + C(q, u) v + D v + F_c sgn(v) + g(q)`.

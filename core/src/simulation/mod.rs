@@ -57,7 +57,7 @@ pub trait StateSpace<T: Scalar>: Send {
     }
     /// Writes the initial state.
     fn initialize(&self, x: &mut [T]);
-    /// Says at which instants the next fixed steps will evaluate the system, [`MOST_FORESEEN`] at most.
+    /// Says at which instants after the first start the next fixed steps will evaluate the system, [`MOST_FORESEEN`] at most.
     fn foresee(&self, _times_s: &[f64]) {}
     /// Writes `f(t, x)`.
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);

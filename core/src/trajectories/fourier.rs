@@ -74,7 +74,8 @@ impl<T: Scalar, const N: usize> Fourier<T, N> {
         self.turned_by(Scalar::sin_cos(self.frequency_rad_s * time_s))
     }
 
-    /// Desired motion at each of several instants, with the bits of [`Self::at`]: sines of as many at once as the machine can.
+    /// Desired motion at each of several instants, with the bits of [`Self::at`]: sines of as many at once as a pack holds.
+    /// Units: rad, rad/s, rad/s²; `motions` is as long as `times_s`.
     #[inline(always)]
     pub fn at_each(&self, times_s: &[f64], motions: &[Cell<Desired<T, N>>]) {
         let together = <T::Pack as Scalar>::LANES;

@@ -69,7 +69,7 @@ impl<T: Scalar, const N: usize> Trajectory<T, N> {
         }
     }
 
-    /// Desired motion at each of several instants, with the bits of [`Self::at`].
+    /// Desired motion (rad, rad/s, rad/s²) at each of several instants, with the bits of [`Self::at`]; `motions` is as long as `times_s`.
     #[inline(always)]
     pub fn at_each(&self, times_s: &[f64], motions: &[Cell<Desired<T, N>>]) {
         match self {

@@ -2,7 +2,7 @@
 //! computed together, one not waiting for the other.
 
 use super::{Desired, Trajectory};
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 use std::cell::Cell;
 
 /// Most instants that can be foreseen at once.
@@ -58,7 +58,7 @@ impl<T: Scalar, const N: usize> Remembered<T, N> {
         let remembered = self.times_s.iter().position(|at| at.get().to_bits() == time_s.to_bits());
         remembered.unwrap_or_else(|| {
             self.times_s[0].set(time_s);
-            self.motions[0].set(self.trajectory.at(time_s));
+            self.motions[0].set(T::compiled(At { trajectory: &self.trajectory, time_s }));
             0
         })
     }
@@ -69,6 +69,7 @@ impl<T: Scalar, const N: usize> Remembered<T, N> {
         let last = self.last.get();
         self.times_s[0].set(self.times_s[last].get());
         self.motions[0].set(self.motions[last].get());
+        debug_assert!(times_s.len() <= MOST_FORESEEN);
         let count = times_s.len().min(MOST_FORESEEN);
         let (times, motions) = (&self.times_s[1..=count], &self.motions[1..=count]);
         for n in 0..count {
@@ -77,6 +78,21 @@ impl<T: Scalar, const N: usize> Remembered<T, N> {
         self.trajectory.at_each(&times_s[..count], motions);
         self.found.set(0);
         self.last.set(count);
+    }
+}
+
+/// [`Trajectory::at`], compiled for each kind of scalar.
+struct At<'a, T: Scalar, const N: usize> {
+    trajectory: &'a Trajectory<T, N>,
+    time_s: f64,
+}
+
+impl<T: Scalar, const N: usize> Kernel for At<'_, T, N> {
+    type Output = Desired<T, N>;
+
+    #[inline(always)]
+    fn run(self) -> Desired<T, N> {
+        self.trajectory.at(self.time_s)
     }
 }
 
