@@ -57,16 +57,16 @@ macro_rules! impl_operator {
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
                 for n in 0..Self::PACKS {
-                    self.packs[n] = self.packs[n] $operator other.packs[n];
+                    self.packs[n] $operator other.packs[n];
                 }
                 self
             }
         }
     };
 }
-impl_operator!(Add, add, +);
-impl_operator!(Sub, sub, -);
-impl_operator!(Mul, mul, *);
+impl_operator!(Add, add, +=);
+impl_operator!(Sub, sub, -=);
+impl_operator!(Mul, mul, *=);
 
 /// All of them times a number.
 impl<T: Scalar, const N: usize> std::ops::Mul<T> for Packed<T, N> {
