@@ -59,15 +59,9 @@ impl<T: Scalar> FrictionSign<T> {
                 };
             }
         }
-        let is_tanh = matches!(self, Self::Tanh { .. });
-        // A page loads each copy of what stands here, and browsers gain nothing by it: there, angles go alone.
-        let sines = if is_tanh && !cfg!(target_arch = "wasm32") {
-            T::tanh_and_sin_cos(sign.as_flattened_mut(), angles, wanted)
-        } else {
-            if is_tanh {
-                T::tanh_and_sin_cos(sign.as_flattened_mut(), [], &[]);
-            }
-            T::tanh_and_sin_cos(&mut [], angles, wanted)
+        let sines = match self {
+            Self::Tanh { .. } => T::tanh_and_sin_cos(sign.as_flattened_mut(), angles, wanted),
+            Self::True => T::tanh_and_sin_cos(&mut [], angles, wanted),
         };
         let mut vectors = [SVector::<T, N>::zeros(); K];
         for k in 0..K {

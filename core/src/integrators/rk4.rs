@@ -19,7 +19,7 @@ pub struct Rk4<T> {
 impl<T: Scalar> Rk4<T> {
     /// Work space for `len` states.
     pub fn new(len: usize) -> Self {
-        // The state itself begins where a page does.
+        // The state, with which the stage changes places after each step, begins where a page does.
         let zeros = |n| Aligned::apart(T::zero(), len, n);
         Self { sum: zeros(1), slope: zeros(2), stage: zeros(3) }
     }

@@ -102,7 +102,7 @@ impl Pack<Neighbour> for Vector {
 /// Tangents, in place, the first [`IN_STEP`] vectors of them in step with the sines and cosines of these angles. Vectors that are not full cost
 /// as much as full ones.
 #[inline(always)]
-fn in_step<const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vector, Vector); A] {
+fn with_sines<const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vector, Vector); A] {
     // A loop alone where nothing is in step: a page loads each copy of what stands in it.
     let together = if IN_STEP == 1 { 0 } else { x.len().min(IN_STEP * Vector::LANES) };
     let (first, rest) = x.split_at_mut(together);
@@ -178,15 +178,15 @@ impl Scalar for Neighbour {
         }
         let first = <Vector as Pack<Self>>::load(&first);
         if count == 0 {
-            in_step(x, []);
+            with_sines(x, []);
             return sines;
         }
         let (sin, cos) = if IN_STEP == 1 || Vector::any(Vector::repeat(SIN_COS_LIMIT).less_than(first.abs())) {
             // Not a function that is called: the numbers would have to be kept in memory for it.
-            in_step(x, []);
+            with_sines(x, []);
             first.sin_cos()
         } else {
-            in_step(x, [first])[0]
+            with_sines(x, [first])[0]
         };
         let mut place = 0;
         for n in 0..A {
