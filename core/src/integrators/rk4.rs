@@ -10,10 +10,10 @@ use crate::scalar::{Kernel, Scalar, zero_where_finite};
 pub struct Rk4<T> {
     /// k1, then k1 + 2 k2, then k1 + 2 k2 + 2 k3.
     sum: Aligned<T>,
-    /// The last slope: k2, k3, k4.
-    slope: Aligned<T>,
-    /// The state at a stage; after a step, what the state was before it.
-    stage: Aligned<T>,
+    /// The state at a stage, or the slope there: where one is, the next stage is put in its place.
+    one: Aligned<T>,
+    /// The same, the other way round; after a step, what the state was before it.
+    other: Aligned<T>,
 }
 
 impl<T: Scalar> Rk4<T> {
@@ -21,7 +21,7 @@ impl<T: Scalar> Rk4<T> {
     pub fn new(len: usize) -> Self {
         // The state, with which the stage changes places after each step, begins where a page does.
         let zeros = |n| Aligned::apart(T::zero(), len, n);
-        Self { sum: zeros(1), slope: zeros(2), stage: zeros(3) }
+        Self { sum: zeros(1), one: zeros(2), other: zeros(3) }
     }
 
     /// The instant between a step's ends at which it evaluates twice.
@@ -36,12 +36,12 @@ impl<T: Scalar> Rk4<T> {
 
     /// The state before the last step.
     pub fn before(&self) -> &[T] {
-        &self.stage
+        &self.other
     }
 
     /// The same, to be written where something happens between steps.
     pub fn before_mut(&mut self) -> &mut [T] {
-        &mut self.stage
+        &mut self.other
     }
 
     /// Advances `x` from `start_s` to `end_s`: `x + h/6 (k1 + 2 k2 + 2 k3 + k4)`; `f(t, x, rate)` writes the derivative.
@@ -60,15 +60,15 @@ impl<T: Scalar> Rk4<T> {
         mut f: impl FnMut(f64, &[T], &mut [T]),
     ) -> T {
         let (h, middle_s) = (end_s - start_s, Self::middle_s(start_s, end_s));
-        let Self { sum, slope, stage } = self;
-        T::compiled(Stage { out: stage, x, h: 0.5 * h, slope: sum });
-        f(middle_s, stage, slope);
-        T::compiled(NextStage { out: stage, sum, x, h: 0.5 * h, slope });
-        f(middle_s, stage, slope);
-        T::compiled(NextStage { out: stage, sum, x, h, slope });
-        f(end_s, stage, slope);
-        let finite = T::compiled(End { out: stage, x, h, sum, slope });
-        std::mem::swap(x, stage);
+        let Self { sum, one, other } = self;
+        T::compiled(Stage { out: one, x, h: 0.5 * h, slope: sum });
+        f(middle_s, one, other);
+        T::compiled(NextStage { place: other, sum, x, h: 0.5 * h });
+        f(middle_s, other, one);
+        T::compiled(NextStage { place: one, sum, x, h });
+        f(end_s, one, other);
+        let finite = T::compiled(End { place: other, x, h, sum });
+        std::mem::swap(x, other);
         finite
     }
 }
@@ -91,13 +91,12 @@ impl<T: Scalar> Kernel for Stage<'_, T> {
     }
 }
 
-/// `sum += 2 k`, `stage = x + h k`.
+/// `sum += 2 k`, and the stage `x + h k` in the place of the slope k.
 struct NextStage<'a, T> {
-    out: &'a mut [T],
+    place: &'a mut [T],
     sum: &'a mut [T],
     x: &'a [T],
     h: f64,
-    slope: &'a [T],
 }
 
 impl<T: Scalar> Kernel for NextStage<'_, T> {
@@ -106,17 +105,16 @@ impl<T: Scalar> Kernel for NextStage<'_, T> {
 
     #[inline(always)]
     fn run(self) {
-        next_stage(self.out, self.sum, self.x, T::splat(self.h), self.slope);
+        next_stage(self.place, self.sum, self.x, T::splat(self.h));
     }
 }
 
-/// `end = x + h/6 (k1 + 2 k2 + 2 k3 + k4)`.
+/// `x + h/6 (k1 + 2 k2 + 2 k3 + k4)` in the place of k4.
 struct End<'a, T> {
-    out: &'a mut [T],
+    place: &'a mut [T],
     x: &'a [T],
     h: f64,
     sum: &'a [T],
-    slope: &'a [T],
 }
 
 impl<T: Scalar> Kernel for End<'_, T> {
@@ -125,8 +123,8 @@ impl<T: Scalar> Kernel for End<'_, T> {
 
     #[inline(always)]
     fn run(self) -> T {
-        end(self.out, self.x, T::splat(self.h / 6.0), self.sum, self.slope);
-        zero_where_finite(self.out)
+        end(self.place, self.x, T::splat(self.h / 6.0), self.sum);
+        zero_where_finite(self.place)
     }
 }
 
@@ -143,23 +141,24 @@ fn stage<T: Scalar>(out: &mut [T], x: &[T], h: T, slope: &[T]) {
 }
 
 #[inline(always)]
-fn next_stage<T: Scalar>(out: &mut [T], sum: &mut [T], x: &[T], h: T, slope: &[T]) {
-    let (len, two) = (out.len(), T::splat(2.0));
-    let (sum, x, slope) = (&mut sum[..len], &x[..len], &slope[..len]);
+fn next_stage<T: Scalar>(place: &mut [T], sum: &mut [T], x: &[T], h: T) {
+    let (len, two) = (place.len(), T::splat(2.0));
+    let (sum, x) = (&mut sum[..len], &x[..len]);
     for i in 0..len {
-        sum[i] += two * slope[i];
-        out[i] = x[i] + h * slope[i];
+        let slope = place[i];
+        sum[i] += two * slope;
+        place[i] = x[i] + h * slope;
     }
 }
 
 #[inline(always)]
-fn end<T: Scalar>(out: &mut [T], x: &[T], sixth: T, sum: &[T], slope: &[T]) {
-    let len = out.len();
-    let (x, sum, slope) = (&x[..len], &sum[..len], &slope[..len]);
+fn end<T: Scalar>(place: &mut [T], x: &[T], sixth: T, sum: &[T]) {
+    let len = place.len();
+    let (x, sum) = (&x[..len], &sum[..len]);
     // One rounding of the state per step: where stiff dynamics hold a state at an exact equilibrium (the projection does),
     // several small increments would each be lost and leave it beside the equilibrium.
     for i in 0..len {
-        out[i] = x[i] + sixth * (sum[i] + slope[i]);
+        place[i] = x[i] + sixth * (sum[i] + place[i]);
     }
 }
 
