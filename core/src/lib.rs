@@ -32,6 +32,7 @@ pub mod scalar;
 pub mod scenario;
 pub mod simulation;
 mod spare;
+pub mod states;
 mod sum;
 pub mod trajectories;
 mod transcendental;

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::robots::Robot;
 use crate::scalar::Scalar;
+use crate::states::States;
 use nalgebra::SVector;
 
 /// One of the adaptation laws.
@@ -66,14 +67,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     type Begun = ();
 
-    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: impl States<T>, _: Option<&mut [T]>) {}
 
     #[inline(always)]
     fn derivative(
         &self,
         _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {

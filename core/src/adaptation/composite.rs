@@ -7,6 +7,7 @@ use super::{AdaptationInput, AdaptationLaw, FilteredRegressor, Mixing, Predictio
 use crate::regressor::model_torque;
 use crate::robots::{Regressor, Robot};
 use crate::scalar::{Pack, Scalar};
+use crate::states::States;
 use crate::unroll::unrolled;
 use nalgebra::SVector;
 
@@ -48,26 +49,26 @@ impl<T: Scalar, const P: usize> CompositeLaw<T, P> {
     #[inline(always)]
     fn theta_hat_rate<R: Robot<N, P>, const N: usize>(
         &self,
-        memory: &[T],
+        memory: impl States<T>,
         gradient: &SVector<T, P>,
         theta_hat: &[T],
         rate: &mut [T],
     ) {
         let (theta_hat, rate) = (&theta_hat[..P], &mut rate[..P]);
         if let Self::Mixed(mixing) = self {
-            let w = |k| PredictionMemory::<R, T, N, P>::w::<T>(memory, k);
+            let w = |k| PredictionMemory::<R, T, N, P>::w(memory, k);
             mixing.theta_hat_rate(w, |i, j| PredictionMemory::<R, T, N, P>::correlation(memory, i, j), rate);
             return;
         }
         let width = <T::Pack as Pack<T>>::WIDTH;
         unrolled!(P / width, n => {
             let from = n * width;
-            let w = PredictionMemory::<R, T, N, P>::w::<T::Pack>(memory, from);
-            self.rate_from(from, w, gradient, theta_hat).store(&mut rate[from..]);
+            let w = PredictionMemory::<R, T, N, P>::w(memory, from);
+            self.rate_from::<T::Pack>(from, w, gradient, theta_hat).store(&mut rate[from..]);
         });
         for k in P / width * width..P {
-            let w = PredictionMemory::<R, T, N, P>::w::<T>(memory, k);
-            rate[k] = self.rate_from(k, w, gradient, theta_hat);
+            let w = PredictionMemory::<R, T, N, P>::w(memory, k);
+            rate[k] = self.rate_from::<T>(k, w, gradient, theta_hat);
         }
     }
 
@@ -131,10 +132,10 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         geometry: &R::Geometry<T>,
         velocity: &SVector<T, N>,
         sign_velocity: &SVector<T, N>,
-        states: &[T],
+        states: impl States<T>,
         states_rate: Option<&mut [T]>,
     ) -> Self::Begun {
-        let (filter, memory) = states.split_at(Self::MEMORY);
+        let (filter, memory) = (states, states.after(Self::MEMORY));
         let filtered = self.filter.regressor(geometry, velocity, filter);
         let rows = PredictionMemory::<R, T, N, P>::rows(&filtered);
         if let Some(rate) = states_rate {
@@ -150,7 +151,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         &self,
         begun: Option<Self::Begun>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
@@ -171,7 +172,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
     fn derivative_apart(
         &self,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
@@ -183,7 +184,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         &self,
         begun: Option<<Self as AdaptationLaw<R, T, N, P>>::Begun>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
@@ -193,7 +194,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
             let AdaptationInput { geometry, velocity, sign_velocity, .. } = input;
             self.begin(geometry, velocity, sign_velocity, states, Some(&mut *states_rate))
         };
-        let (filter, memory) = states.split_at(Self::MEMORY);
+        let (filter, memory) = (states, states.after(Self::MEMORY));
         let (filter_rate, memory_rate) = states_rate.split_at_mut(Self::MEMORY);
         let filtered_torque = self.filter.torque(input.torque, filter, filter_rate);
         self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);

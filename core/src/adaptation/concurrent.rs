@@ -10,6 +10,7 @@ use crate::eigen::symmetric_eigen;
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
+use crate::states::States;
 use nalgebra::SVector;
 
 /// A moment is new if it differs by this share from the one recorded last.
@@ -36,16 +37,20 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> ConcurrentLearni
 
     /// Moments recorded.
     pub fn recorded(states: &[T]) -> usize {
-        states[Self::FILTER].lane(0) as usize
+        Self::count(states)
+    }
+
+    fn count(states: impl States<T>) -> usize {
+        states.at(Self::FILTER).lane(0) as usize
     }
 
     /// A moment's Yf and τf.
-    fn read(moment: &[T]) -> (Regressor<T, N, P>, SVector<T, N>) {
+    fn read(moment: impl States<T>) -> (Regressor<T, N, P>, SVector<T, N>) {
         let mut filtered = Regressor::<T, N, P>::zeros();
-        for (number, entry) in moment.iter().zip(R::ENTRIES) {
-            filtered[*entry] = *number;
+        for (n, entry) in R::ENTRIES.iter().enumerate() {
+            filtered[*entry] = moment.at(n);
         }
-        (filtered, SVector::from_column_slice(&moment[R::ENTRIES.len()..]))
+        (filtered, moment.after(R::ENTRIES.len()).vector())
     }
 
     /// `(Yf S)ᵀ (Yf S)` by rows, S the diagonal of the scales.
@@ -58,7 +63,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> ConcurrentLearni
     /// Records this moment if it is new and there is room, or if the stack is better with it than with another one.
     pub fn record(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &mut [T]) {
         let (filter, stack) = states.split_at_mut(Self::FILTER);
-        let (filtered, filtered_torque) = self.filter.outputs(geometry, velocity, filter);
+        let (filtered, filtered_torque) = self.filter.outputs(geometry, velocity, &*filter);
         let count = stack[0].lane(0) as usize;
         let (number, moments) = stack.split_at_mut(1);
         let moment = |n: usize| n * Self::MOMENT..(n + 1) * Self::MOMENT;
@@ -123,24 +128,24 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     type Begun = ();
 
-    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: impl States<T>, _: Option<&mut [T]>) {}
 
     fn derivative(
         &self,
         _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        let (filter, stack) = states.split_at(Self::FILTER);
+        let moments = states.after(Self::FILTER + 1);
         let (filter_rate, stack_rate) = states_rate.split_at_mut(Self::FILTER);
-        self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
+        self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, states, filter_rate);
         stack_rate.fill(T::zero());
-        let count = Self::recorded(states);
+        let count = Self::count(states);
         let mut drive = *input.gradient;
-        for moment in stack[1..].chunks_exact(Self::MOMENT).take(count) {
-            let (filtered, filtered_torque) = Self::read(moment);
+        for n in 0..count {
+            let (filtered, filtered_torque) = Self::read(moments.after(n * Self::MOMENT));
             let error = model_torque::<R, T, N, P>(&filtered, input.theta_hat) - filtered_torque;
             drive += gradient::<R, T, N, P>(&filtered, &error) * (self.weight / T::splat(count as f64));
         }

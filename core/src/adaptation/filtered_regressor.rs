@@ -7,6 +7,7 @@
 
 use crate::robots::{Regressor, Robot};
 use crate::scalar::{MOST_PACKED, Pack, Scalar};
+use crate::states::States;
 use crate::unroll::unrolled;
 use nalgebra::SVector;
 use std::marker::PhantomData;
@@ -44,22 +45,26 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         &self,
         geometry: &R::Geometry<T>,
         velocity: &SVector<T, N>,
-        states: &[T],
+        states: impl States<T>,
     ) -> (Regressor<T, N, P>, SVector<T, N>) {
-        let tau_f = &states[R::ENTRIES.len()..Self::STATES];
-        (self.regressor(geometry, velocity, states), SVector::from_column_slice(tau_f))
+        (self.regressor(geometry, velocity, states), Self::filtered_torque(states))
     }
 
     /// Filtered regressor `Yf`. Source: paper eq. (10) to (12).
     #[inline(always)]
-    pub fn regressor(&self, geometry: &R::Geometry<T>, velocity: &SVector<T, N>, states: &[T]) -> Regressor<T, N, P> {
+    pub fn regressor(
+        &self,
+        geometry: &R::Geometry<T>,
+        velocity: &SVector<T, N>,
+        states: impl States<T>,
+    ) -> Regressor<T, N, P> {
         let momentum = R::momentum_regressor(geometry, velocity);
-        let x = &states[..R::ENTRIES.len()];
+        let x = states.first(R::ENTRIES.len());
         let mut filtered = Regressor::<T, N, P>::zeros();
         let bandwidth = <T::Pack as Pack<T>>::repeat(self.bandwidth);
         unrolled!(Self::PACKS, pack => {
             let start = pack * Self::WIDTH;
-            let x = T::Pack::load(&x[start..]);
+            let x = x.load::<T::Pack>(start);
             let packed =
                 if Self::has_momentum(start) { bandwidth * Self::entries(&momentum, start) + x } else { x };
             let mut numbers = [T::zero(); MOST_PACKED];
@@ -70,7 +75,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         });
         for n in Self::PACKS * Self::WIDTH..R::ENTRIES.len() {
             let entry = R::ENTRIES[n];
-            filtered[entry] = self.filtered(&momentum, entry, x[n]);
+            filtered[entry] = self.filtered(&momentum, entry, x.at(n));
         }
         filtered
     }
@@ -131,13 +136,18 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
 
     /// Filtered torque `τf` (N·m), and writes `τf' = λf (τ − τf)`. Source: paper eq. (10).
     #[inline(always)]
-    pub fn torque(&self, torque: &SVector<T, N>, states: &[T], rate: &mut [T]) -> SVector<T, N> {
-        let tau_f = &states[R::ENTRIES.len()..Self::STATES];
+    pub fn torque(&self, torque: &SVector<T, N>, states: impl States<T>, rate: &mut [T]) -> SVector<T, N> {
+        let tau_f = Self::filtered_torque(states);
         let tau_f_rate = &mut rate[R::ENTRIES.len()..Self::STATES];
         for i in 0..N {
             tau_f_rate[i] = self.bandwidth * (torque[i] - tau_f[i]);
         }
-        SVector::from_column_slice(tau_f)
+        tau_f
+    }
+
+    #[inline(always)]
+    fn filtered_torque(states: impl States<T>) -> SVector<T, N> {
+        states.after(R::ENTRIES.len()).vector()
     }
 
     /// Filtered regressor `Yf` and filtered torque `τf` (N·m), and the states' derivative.
@@ -148,7 +158,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> FilteredRegresso
         velocity: &SVector<T, N>,
         sign_velocity: &SVector<T, N>,
         torque: &SVector<T, N>,
-        states: &[T],
+        states: impl States<T>,
         rate: &mut [T],
     ) -> (Regressor<T, N, P>, SVector<T, N>) {
         let filtered = self.regressor(geometry, velocity, states);

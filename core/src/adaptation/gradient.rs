@@ -4,6 +4,7 @@
 use super::{AdaptationInput, AdaptationLaw};
 use crate::robots::Robot;
 use crate::scalar::Scalar;
+use crate::states::States;
 use nalgebra::SVector;
 
 /// The law with diagonal gain Γ.
@@ -24,14 +25,14 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     type Begun = ();
 
-    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: impl States<T>, _: Option<&mut [T]>) {}
 
     #[inline(always)]
     fn derivative(
         &self,
         _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        _states: &[T],
+        _states: impl States<T>,
         theta_hat_rate: &mut [T],
         _states_rate: &mut [T],
     ) {

@@ -10,6 +10,7 @@ use super::{AdaptationInput, AdaptationLaw, FilteredRegressor};
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
 use crate::scalar::Scalar;
+use crate::states::States;
 use nalgebra::{SMatrix, SVector};
 
 /// The law. States: the filter's, then P's upper triangle row by row.
@@ -32,15 +33,15 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> LeastSquaresAdap
 
     /// `Yf P`, and the trace of P; `packed` is P's upper triangle.
     #[inline(always)]
-    fn times_gain(filtered: &Regressor<T, N, P>, packed: &[T]) -> (Regressor<T, N, P>, T) {
+    fn times_gain(filtered: &Regressor<T, N, P>, packed: impl States<T>) -> (Regressor<T, N, P>, T) {
         let (mut product, mut trace, mut n) = (Regressor::<T, N, P>::zeros(), T::zero(), 0);
         for i in 0..P {
-            trace += packed[n];
+            trace += packed.at(n);
             for j in i..P {
                 for row in 0..N {
-                    product[(row, j)] += filtered[(row, i)] * packed[n];
+                    product[(row, j)] += filtered[(row, i)] * packed.at(n);
                     if i != j {
-                        product[(row, i)] += filtered[(row, j)] * packed[n];
+                        product[(row, i)] += filtered[(row, j)] * packed.at(n);
                     }
                 }
                 n += 1;
@@ -85,18 +86,18 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
 
     type Begun = ();
 
-    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: &[T], _: Option<&mut [T]>) {}
+    fn begin(&self, _: &R::Geometry<T>, _: &SVector<T, N>, _: &SVector<T, N>, _: impl States<T>, _: Option<&mut [T]>) {}
 
     #[inline(always)]
     fn derivative(
         &self,
         _: Option<()>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
-        let (filter, packed) = states.split_at(FilteredRegressor::<R, T, N, P>::STATES);
+        let (filter, packed) = (states, states.after(FilteredRegressor::<R, T, N, P>::STATES));
         let (filter_rate, packed_rate) = states_rate.split_at_mut(FilteredRegressor::<R, T, N, P>::STATES);
         let (filtered, filtered_torque) =
             self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, filter, filter_rate);
@@ -114,10 +115,10 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
                 for row in 0..N {
                     known += product[(row, i)] * product[(row, j)];
                 }
-                packed_rate[n] = forgetting * packed[n] - self.weight * known;
-                theta_hat_rate[i] -= packed[n] * drive[j];
+                packed_rate[n] = forgetting * packed.at(n) - self.weight * known;
+                theta_hat_rate[i] -= packed.at(n) * drive[j];
                 if i != j {
-                    theta_hat_rate[j] -= packed[n] * drive[i];
+                    theta_hat_rate[j] -= packed.at(n) * drive[i];
                 }
                 n += 1;
             }

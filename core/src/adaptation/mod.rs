@@ -26,6 +26,7 @@ pub use projection::Projection;
 
 use crate::robots::Robot;
 use crate::scalar::Scalar;
+use crate::states::States;
 use nalgebra::SVector;
 
 /// What an adaptation law sees at one instant.
@@ -81,7 +82,7 @@ pub trait AdaptationLaw<R: Robot<N, P>, T: Scalar, const N: usize, const P: usiz
         geometry: &R::Geometry<T>,
         velocity: &SVector<T, N>,
         sign_velocity: &SVector<T, N>,
-        states: &[T],
+        states: impl States<T>,
         states_rate: Option<&mut [T]>,
     ) -> Self::Begun;
 
@@ -90,7 +91,7 @@ pub trait AdaptationLaw<R: Robot<N, P>, T: Scalar, const N: usize, const P: usiz
         &self,
         begun: Option<Self::Begun>,
         input: &AdaptationInput<'_, R, T, N, P>,
-        states: &[T],
+        states: impl States<T>,
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     );

@@ -7,6 +7,7 @@
 use crate::regressor::gradient;
 use crate::robots::{NONE, Regressor, Robot, SymmetricLayout};
 use crate::scalar::{MOST_PACKED, Pack, Scalar};
+use crate::states::States;
 use crate::sum::Sum;
 use crate::unroll::unrolled;
 use nalgebra::SVector;
@@ -61,11 +62,11 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         &self,
         filtered: &Regressor<T, N, P>,
         rows: &[[T::Pack; P]; N],
-        states: &[T],
+        states: impl States<T>,
         rate: &mut [T],
     ) {
         if Self::WIDTH > 1 {
-            self.write_kept(filtered, rows, &states[Self::W..Self::STATES], &mut rate[Self::W..Self::STATES]);
+            self.write_kept(filtered, rows, states.after(Self::W), &mut rate[Self::W..Self::STATES]);
         }
     }
 
@@ -77,10 +78,10 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         rows: &[[T::Pack; P]; N],
         prediction_error: &SVector<T, N>,
         theta_hat_rate: &[T],
-        states: &[T],
+        states: impl States<T>,
         rate: &mut [T],
     ) {
-        let (w, z) = states[..Self::STATES].split_at(Self::W);
+        let (w, z) = (states.first(Self::W), states.first(Self::STATES).after(Self::W));
         let (w_rate, z_rate) = rate[..Self::STATES].split_at_mut(Self::W);
         let theta_hat_rate = &theta_hat_rate[..P];
         if Self::WIDTH == 1 {
@@ -97,7 +98,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         filtered: &Regressor<T, N, P>,
         prediction_error: &SVector<T, N>,
         theta_hat_rate: &[T],
-        (w, z): (&[T], &[T]),
+        (w, z): (impl States<T>, impl States<T>),
         (w_rate, z_rate): (&mut [T], &mut [T]),
     ) {
         let correlation = gradient::<R, T, N, P>(filtered, prediction_error);
@@ -106,7 +107,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         let theta_hat_rate = SVector::<T, P>::from_column_slice(theta_hat_rate);
         let mut sum = [T::zero(); P];
         for k in 0..P {
-            sum[k] = gain * correlation[k] - forgetting * w[k];
+            sum[k] = gain * correlation[k] - forgetting * w.at(k);
         }
         unrolled!(R::PAIRS.len(), n => {
             let (i, j) = R::PAIRS[n];
@@ -116,7 +117,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
                     product = product.plus(filtered[(row, i)] * filtered[(row, j)]);
                 }
             }
-            let z = z[n];
+            let z = z.at(n);
             z_rate[n] = gain * product.total(T::zero()) - forgetting * z;
             sum[i] += z * theta_hat_rate[j];
             if i != j {
@@ -133,7 +134,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
         rows: &[[T::Pack; P]; N],
         prediction_error: &SVector<T, N>,
         theta_hat_rate: &[T],
-        (w, z): (&[T], &[T]),
+        (w, z): (impl States<T>, impl States<T>),
         w_rate: &mut [T],
     ) {
         let repeat = <T::Pack as Pack<T>>::repeat;
@@ -146,7 +147,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
                     correlation = correlation.plus(rows[row][g] * repeat(prediction_error[row]));
                 }
             }
-            sum[g] = gain * correlation.total(repeat(T::zero())) - forgetting * T::Pack::load(&w[g * Self::WIDTH..]);
+            sum[g] = gain * correlation.total(repeat(T::zero())) - forgetting * w.load::<T::Pack>(g * Self::WIDTH);
         });
         Self::add_rows(z, theta_hat_rate, &mut sum);
         unrolled!(Self::LAYOUT.groups, g => {
@@ -157,23 +158,23 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
     /// `sum += Z θ̂'`. A function of its own in the browser's module, which is smaller then and as fast.
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn add_rows(z: &[T], theta_hat_rate: &[T], sum: &mut [T::Pack; P]) {
-        let (z, theta_hat_rate) = (&z[..Self::LAYOUT.kept_len * Self::WIDTH], &theta_hat_rate[..P]);
+    fn add_rows(z: impl States<T>, theta_hat_rate: &[T], sum: &mut [T::Pack; P]) {
+        let (z, theta_hat_rate) = (z.first(Self::LAYOUT.kept_len * Self::WIDTH), &theta_hat_rate[..P]);
         unrolled!(Self::LAYOUT.whole_len, n => {
             let (j, g) = Self::LAYOUT.whole[n];
             let kept = Self::LAYOUT.kept_as[j][g];
-            let of_z = if kept == NONE { Self::gathered(z, j, g) } else { T::Pack::load(&z[kept * Self::WIDTH..]) };
+            let of_z = if kept == NONE { Self::gathered(z, j, g) } else { z.load(kept * Self::WIDTH) };
             sum[g] += of_z * <T::Pack as Pack<T>>::repeat(theta_hat_rate[j]);
         });
     }
 
     /// `Z' = γ Yfᵀ Yf − λ Z` of the kept vectors; `rows` is `Yf` in packs.
     #[inline(always)]
-    fn write_kept(&self, filtered: &Regressor<T, N, P>, rows: &[[T::Pack; P]; N], z: &[T], z_rate: &mut [T]) {
+    fn write_kept(&self, filtered: &Regressor<T, N, P>, rows: &[[T::Pack; P]; N], z: impl States<T>, z_rate: &mut [T]) {
         let repeat = <T::Pack as Pack<T>>::repeat;
         let (gain, forgetting) = (repeat(self.gain), repeat(self.forgetting));
         let len = Self::LAYOUT.kept_len * Self::WIDTH;
-        let (z, z_rate) = (&z[..len], &mut z_rate[..len]);
+        let (z, z_rate) = (z.first(len), &mut z_rate[..len]);
         unrolled!(Self::LAYOUT.kept_len, n => {
             let (i, g) = Self::LAYOUT.kept[n];
             let mut product = Sum::EMPTY;
@@ -183,7 +184,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
                 }
             }
             let product = product.total(repeat(T::zero()));
-            let z = T::Pack::load(&z[n * Self::WIDTH..]);
+            let z = z.load::<T::Pack>(n * Self::WIDTH);
             (gain * product - forgetting * z).store(&mut z_rate[n * Self::WIDTH..]);
         });
     }
@@ -214,7 +215,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
 
     /// Row `j` of Z in the columns of group `g`, from what lies across; given Z's states.
     #[inline(always)]
-    fn gathered(z: &[T], j: usize, g: usize) -> T::Pack {
+    fn gathered(z: impl States<T>, j: usize, g: usize) -> T::Pack {
         let mut at = [None; MOST_PACKED];
         for lane in 0..Self::WIDTH {
             if let Some(column) = Self::LAYOUT.column(g, lane)
@@ -223,30 +224,30 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> PredictionMemory
                 at[lane] = Some(Self::LAYOUT.at[j][column]);
             }
         }
-        T::Pack::gather(z, at)
+        z.gather(at)
     }
 
     /// w of as many parameters as a pack `S` holds, from the `k`th on.
     #[inline(always)]
-    pub fn w<S: Pack<T>>(states: &[T], k: usize) -> S {
+    pub fn w<S: Pack<T>>(states: impl States<T>, k: usize) -> S {
         let mut at = [None; MOST_PACKED];
         for lane in 0..S::WIDTH {
             at[lane] = Some(Self::LAYOUT.place[k + lane]);
         }
-        S::gather(&states[..Self::W], at)
+        states.first(Self::W).gather(at)
     }
 
     /// Entry (i, j) of Z.
-    pub fn correlation(states: &[T], i: usize, j: usize) -> T {
-        Self::entry(&states[Self::W..], i, j)
+    pub fn correlation(states: impl States<T>, i: usize, j: usize) -> T {
+        Self::entry(states.after(Self::W), i, j)
     }
 
     /// Entry (i, j) of Z, given its states.
     #[inline(always)]
-    fn entry(z: &[T], i: usize, j: usize) -> T {
+    fn entry(z: impl States<T>, i: usize, j: usize) -> T {
         match Self::LAYOUT.at[i][j] {
             NONE => T::zero(),
-            n => z[n],
+            n => z.at(n),
         }
     }
 
@@ -345,8 +346,8 @@ mod tests {
             let theta_hat = self.0.theta_hat.map(T::splat);
             let error = model_torque::<R, T, N, P>(&filtered, theta_hat.as_slice()) - self.0.torque.map(T::splat);
             let theta_hat_rate = self.0.theta_hat_rate.map(T::splat);
-            memory.correlation_rate(&filtered, &rows, &states, &mut rate);
-            memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), &states, &mut rate);
+            memory.correlation_rate(&filtered, &rows, states.as_slice(), &mut rate);
+            memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), states.as_slice(), &mut rate);
             PredictionMemory::<R, T, N, P>::write_plain(&rate, &mut written);
             // Numbers that are kept twice stay the same.
             let mut again = ones(len);

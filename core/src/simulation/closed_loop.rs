@@ -11,6 +11,7 @@ use crate::recording::write_row;
 use crate::regressor::{gradient, model_torque};
 use crate::robots::{Regressor, Robot};
 use crate::scalar::{Kernel, Pack, Scalar};
+use crate::states::{Stage, States};
 use crate::trajectories::{Desired, Remembered};
 use crate::velocity::{VelocityEstimate, VelocitySource};
 use nalgebra::SVector;
@@ -44,7 +45,7 @@ pub struct ClosedLoop<R, V, A, T: Scalar, const N: usize, const P: usize> {
 }
 
 /// Everything between the state and the torque at one instant.
-struct Evaluation<R: Robot<N, P>, B, T: Scalar, const N: usize, const P: usize> {
+struct Evaluation<R: Robot<N, P>, B, H, T: Scalar, const N: usize, const P: usize> {
     geometry: R::Geometry<T>,
     velocity: SVector<T, N>,
     sign_velocity: SVector<T, N>,
@@ -53,6 +54,7 @@ struct Evaluation<R: Robot<N, P>, B, T: Scalar, const N: usize, const P: usize> 
     estimate: VelocityEstimate<T, N>,
     sliding: SlidingSignals<T, N>,
     regressor: Regressor<T, N, P>,
+    theta_hat: H,
     torque: SVector<T, N>,
     /// What the adaptation law has begun, where it did on the way.
     begun: Option<B>,
@@ -92,37 +94,36 @@ where
 
     /// `law_rate` takes what the adaptation law can write on the way; the rest is for [`Self::write_rate`].
     #[inline(always)]
-    fn evaluate(
+    fn evaluate<X: States<T>>(
         &self,
         desired: &Desired<T, N>,
-        x: &[T],
+        x: X,
         law_rate: Option<&mut [T]>,
-    ) -> Evaluation<R, A::Begun, T, N, P> {
+    ) -> Evaluation<R, A::Begun, X::InMemory<P>, T, N, P> {
         if T::IS_PLAIN { self.evaluate_apart(desired, x, law_rate) } else { self.evaluate_within(desired, x, law_rate) }
     }
 
     /// A function of its own: the compiler then knows that its arguments do not overlap, and works on numbers in pairs.
     #[inline(never)]
-    fn evaluate_apart(
+    fn evaluate_apart<X: States<T>>(
         &self,
         desired: &Desired<T, N>,
-        x: &[T],
+        x: X,
         law_rate: Option<&mut [T]>,
-    ) -> Evaluation<R, A::Begun, T, N, P> {
+    ) -> Evaluation<R, A::Begun, X::InMemory<P>, T, N, P> {
         self.evaluate_within(desired, x, law_rate)
     }
 
     #[inline(always)]
-    fn evaluate_within(
+    fn evaluate_within<X: States<T>>(
         &self,
         desired: &Desired<T, N>,
-        x: &[T],
+        x: X,
         law_rate: Option<&mut [T]>,
-    ) -> Evaluation<R, A::Begun, T, N, P> {
+    ) -> Evaluation<R, A::Begun, X::InMemory<P>, T, N, P> {
         let layout = self.layout();
-        let position = SVector::<T, N>::from_column_slice(&x[..N]);
-        let velocity = SVector::<T, N>::from_column_slice(&x[N..2 * N]);
-        let source_states = &x[layout.velocity_source..layout.theta_hat];
+        let (position, velocity) = (x.vector::<N>(), x.after(N).vector::<N>());
+        let source_states = x.after(layout.velocity_source);
         let estimate = self.velocity_source.estimate(&position, &velocity, desired, source_states);
         let sliding = self.feedback.signals(&position, &estimate.velocity, desired);
         // Tangents and sines together, because the processor works on all at once.
@@ -145,21 +146,27 @@ where
         );
         // Here, because the model torque waits for the regressor, and the acceleration for the torque.
         let begun = if Self::BEGINS_EARLY {
-            let law = &x[layout.adaptation..];
+            let law = x.after(layout.adaptation);
             Some(self.adaptation.begin(&geometry, &estimate.velocity, &sign_estimate, law, law_rate))
         } else {
             None
         };
-        let model = model_torque::<R, T, N, P>(&regressor, &x[layout.theta_hat..layout.theta_end]);
+        let theta_hat = x.after(layout.theta_hat).in_memory::<P>();
+        let model = model_torque::<R, T, N, P>(&regressor, theta_hat.as_ref());
         let torque = self.feedback.torque(&sliding, &model);
-        Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, torque, begun }
+        Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, theta_hat, torque, begun }
     }
 
     /// The derivative of the state.
     #[inline(always)]
-    fn write_rate(&self, now: &Evaluation<R, A::Begun, T, N, P>, x: &[T], rate: &mut [T]) {
+    fn write_rate<X: States<T>>(
+        &self,
+        now: &Evaluation<R, A::Begun, X::InMemory<P>, T, N, P>,
+        x: X,
+        rate: &mut [T],
+    ) {
         let layout = self.layout();
-        let (x, rate) = (&x[..layout.len], &mut rate[..layout.len]);
+        let (x, rate) = (x.first(layout.len), &mut rate[..layout.len]);
         let acceleration = self.plant.acceleration(&now.geometry, &now.velocity, &now.sign_velocity, &now.torque);
         rate[..N].copy_from_slice(now.velocity.as_slice());
         rate[N..2 * N].copy_from_slice(acceleration.as_slice());
@@ -171,27 +178,32 @@ where
             sign_velocity: &now.sign_estimate,
             torque: &now.torque,
             gradient: &gradient::<R, T, N, P>(&now.regressor, &now.sliding.sliding_variable),
-            theta_hat: &x[layout.theta_hat..layout.theta_end],
+            theta_hat: now.theta_hat.as_ref(),
         };
         let (before_law, law_rate) = rate.split_at_mut(layout.adaptation);
         let theta_hat_rate = &mut before_law[layout.theta_hat..layout.theta_end];
-        let law = &x[layout.adaptation..];
+        let law = x.after(layout.adaptation);
         let begun = if Self::BEGINS_EARLY { now.begun } else { None };
         self.adaptation.derivative(begun, &input, law, theta_hat_rate, law_rate);
     }
 
     /// A row of a recording.
     #[inline(always)]
-    fn write_row(&self, now: &Evaluation<R, A::Begun, T, N, P>, desired: &Desired<T, N>, x: &[T], row: &mut [T]) {
-        let layout = self.layout();
+    fn write_row<X: States<T>>(
+        &self,
+        now: &Evaluation<R, A::Begun, X::InMemory<P>, T, N, P>,
+        desired: &Desired<T, N>,
+        x: X,
+        row: &mut [T],
+    ) {
         let blocks = [
             now.sliding.error,
             now.velocity - desired.velocity,
             now.estimate.observer_error,
             now.torque,
-            SVector::<T, N>::from_column_slice(&x[..N]),
+            x.vector(),
         ];
-        write_row(row, &blocks, &x[layout.theta_hat..layout.theta_end], &now.sliding.sliding_variable);
+        write_row(row, &blocks, now.theta_hat.as_ref(), &now.sliding.sliding_variable);
     }
 }
 
@@ -235,7 +247,7 @@ where
         let velocity = SVector::<T, N>::from_column_slice(&motion[N..]);
         let (source, theta_hat) = rest.split_at_mut(layout.theta_hat - layout.velocity_source);
         self.velocity_source.initialize(&desired.position, &desired, source);
-        let estimate = self.velocity_source.estimate(&desired.position, &velocity, &desired, source);
+        let estimate = self.velocity_source.estimate(&desired.position, &velocity, &desired, &*source);
         theta_hat.fill(T::zero());
         self.adaptation.initialize(&R::geometry(&desired.position), &estimate.velocity, law);
     }
@@ -246,6 +258,14 @@ where
 
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
         T::compiled(At { system: self, time_s, x, want: Want::Rate(rate) });
+    }
+
+    fn derivative_at(&self, time_s: f64, stage: Stage<'_, T>, rate: &mut [T]) {
+        if Stage::<T>::IS_WORTH_IT {
+            T::compiled(At { system: self, time_s, x: stage, want: Want::Rate(rate) });
+        } else {
+            self.derivative(time_s, &stage.to_vec(), rate);
+        }
     }
 
     fn observe(&self, time_s: f64, x: &[T], row: &mut [T]) {
@@ -290,15 +310,16 @@ enum Want<'a, T> {
 }
 
 /// A closed loop in one state: the computation that is compiled for each kind of scalar.
-struct At<'a, S, T> {
+struct At<'a, S, X, T> {
     system: &'a S,
     time_s: f64,
-    x: &'a [T],
+    x: X,
     want: Want<'a, T>,
 }
 
-impl<R, V, A, T, const N: usize, const P: usize> Kernel for At<'_, ClosedLoop<R, V, A, T, N, P>, T>
+impl<R, V, A, X, T, const N: usize, const P: usize> Kernel for At<'_, ClosedLoop<R, V, A, T, N, P>, X, T>
 where
+    X: States<T>,
     R: Robot<N, P>,
     V: VelocitySource<T, N>,
     A: AdaptationLaw<R, T, N, P>,
@@ -310,11 +331,11 @@ where
     fn run(self) {
         let Self { system, time_s, mut want, .. } = self;
         // One check here removes those of every part.
-        let x = &self.x[..system.layout().len];
+        let x = self.x.first(system.layout().len);
         let desired = system.trajectory.at(time_s);
         if let Want::Error(error) = want {
             for joint in 0..N {
-                error[joint] = x[joint] - desired.position[joint];
+                error[joint] = x.at(joint) - desired.position[joint];
             }
             return;
         }

@@ -74,7 +74,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> Controller<R, T,
     ) {
         let (source, rest) = states.split_at_mut(self.theta_hat());
         self.velocity_source.initialize(position, desired, source);
-        let estimate = self.velocity_source.estimate(position, velocity, desired, source);
+        let estimate = self.velocity_source.estimate(position, velocity, desired, &*source);
         let (theta_hat, law) = rest.split_at_mut(P);
         theta_hat.copy_from_slice(self.theta_hat_start.as_slice());
         let (law, integral) = law.split_at_mut(self.adaptation.states());

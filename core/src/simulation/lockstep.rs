@@ -6,9 +6,10 @@
 use super::recorder::Recorder;
 use super::run::exceeded_joint;
 use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD};
-use crate::integrators::{Aligned, Rk4};
+use crate::integrators::{Aligned, Rk4, Rk4Slopes};
 use crate::recording::Recording;
 use crate::scalar::{Kernel, Scalar, zero_where_finite};
+use crate::states::Stage;
 
 /// Lanes under way, whatever their scalar.
 pub(crate) trait Lockstep: Send {
@@ -27,7 +28,7 @@ pub(crate) struct Lanes<T: Scalar> {
     system: Box<dyn StateSpace<T>>,
     settings: Settings,
     step_times: StepTimes,
-    rk4: Rk4<T>,
+    rk4: Steps<T>,
     /// Steps from one sample to the next.
     every: u64,
     state: Aligned<T>,
@@ -39,6 +40,43 @@ pub(crate) struct Lanes<T: Scalar> {
     time_s: f64,
     /// Of the runs that were asked for; lanes behind the last are not heard.
     runs: Vec<LaneRun>,
+}
+
+/// Where stages are: in memory, or computed where they are read. Both have the same bits.
+enum Steps<T> {
+    InMemory(Rk4<T>),
+    Computed(Rk4Slopes<T>),
+}
+
+impl<T: Scalar> Steps<T> {
+    fn new(len: usize) -> Self {
+        if Stage::<T>::IS_WORTH_IT { Self::Computed(Rk4Slopes::new(len)) } else { Self::InMemory(Rk4::new(len)) }
+    }
+
+    fn first_slope(&mut self) -> &mut [T] {
+        match self {
+            Self::InMemory(rk4) => rk4.first_slope(),
+            Self::Computed(rk4) => rk4.first_slope(),
+        }
+    }
+
+    /// The state before the last step.
+    fn before(&self) -> &[T] {
+        match self {
+            Self::InMemory(rk4) => rk4.before(),
+            Self::Computed(rk4) => rk4.before(),
+        }
+    }
+
+    /// See [`Rk4::step_from_slope`].
+    fn step_from_slope(&mut self, system: &dyn StateSpace<T>, start_s: f64, end_s: f64, x: &mut Aligned<T>) -> T {
+        match self {
+            Self::InMemory(rk4) => rk4.step_from_slope(start_s, end_s, x, |t, x, rate| system.derivative(t, x, rate)),
+            Self::Computed(rk4) => {
+                rk4.step_from_slope(start_s, end_s, x, |t, stage, rate| system.derivative_at(t, stage, rate))
+            }
+        }
+    }
 }
 
 /// One run among the lanes.
@@ -70,7 +108,7 @@ impl<T: Scalar> Lanes<T> {
             system,
             settings,
             step_times: settings.step_times(),
-            rk4: Rk4::new(len),
+            rk4: Steps::new(len),
             every,
             state,
             row: zeros(width),
@@ -107,21 +145,17 @@ impl<T: Scalar> Lanes<T> {
     }
 
     fn take_step(&mut self) {
-        let is_sampled = self.step.is_multiple_of(self.every);
-        if is_sampled {
+        let slope = self.rk4.first_slope();
+        if self.step.is_multiple_of(self.every) {
             // A sample's evaluation gives the first slope of its step too.
-            let slope = self.rk4.first_slope();
             self.system.observe_and_derive(self.time_s, &self.state, &mut self.row, slope);
             self.record_row(false);
+        } else {
+            self.system.derivative(self.time_s, &self.state, slope);
         }
         let (system, end_s) = (&*self.system, self.step_times.start_s(self.step + 1));
         system.foresee(self.step_times.foreseen_s::<1>(self.step).as_flattened());
-        let derivative = |t: f64, x: &[T], rate: &mut [T]| system.derivative(t, x, rate);
-        let finite = if is_sampled {
-            self.rk4.step_from_slope(self.time_s, end_s, &mut self.state, derivative)
-        } else {
-            self.rk4.step(self.time_s, end_s, &mut self.state, derivative)
-        };
+        let finite = self.rk4.step_from_slope(system, self.time_s, end_s, &mut self.state);
         self.time_s = end_s;
         self.step += 1;
         self.check(finite);

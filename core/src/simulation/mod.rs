@@ -27,6 +27,7 @@ pub use snapshot::{Snapshot, SnapshotError};
 use crate::integrators::{Rk4, Tolerances};
 use crate::recording::Columns;
 use crate::scalar::Scalar;
+use crate::states::Stage;
 use crate::trajectories::MOST_FORESEEN;
 
 /// A dynamical system `x' = f(t, x)` that tracks something and can be observed.
@@ -61,6 +62,10 @@ pub trait StateSpace<T: Scalar>: Send {
     fn foresee(&self, _times_s: &[f64]) {}
     /// Writes `f(t, x)`.
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
+    /// Writes `f(t, x)` at a stage of a step that is nowhere in memory.
+    fn derivative_at(&self, time_s: f64, stage: Stage<'_, T>, rate: &mut [T]) {
+        self.derivative(time_s, &stage.to_vec(), rate);
+    }
     /// Writes one row of a recording without its time: see [`Columns`].
     fn observe(&self, time_s: f64, x: &[T], row: &mut [T]);
     /// Both at once, with the same bits: they share nearly all of their work.

@@ -2,6 +2,7 @@
 
 use super::{FilteredDifference, HighGainObserver, Measured, ModelFreeObserver, VelocityEstimate, VelocitySource};
 use crate::scalar::Scalar;
+use crate::states::States;
 use crate::trajectories::Desired;
 use nalgebra::SVector;
 
@@ -47,7 +48,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for AnySource<T, N> {
         position: &SVector<T, N>,
         velocity: &SVector<T, N>,
         desired: &Desired<T, N>,
-        states: &[T],
+        states: impl States<T>,
     ) -> VelocityEstimate<T, N> {
         each!(self, source => source.estimate(position, velocity, desired, states))
     }

@@ -6,6 +6,7 @@
 
 use super::{VelocityEstimate, VelocitySource};
 use crate::scalar::Scalar;
+use crate::states::States;
 use crate::trajectories::Desired;
 use nalgebra::SVector;
 
@@ -37,9 +38,9 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for FilteredDifference<T> {
         position: &SVector<T, N>,
         _velocity: &SVector<T, N>,
         _desired: &Desired<T, N>,
-        states: &[T],
+        states: impl States<T>,
     ) -> VelocityEstimate<T, N> {
-        let lag = position - SVector::<T, N>::from_column_slice(&states[..N]);
+        let lag = position - states.vector::<N>();
         VelocityEstimate { velocity: lag * self.bandwidth, observer_error: lag }
     }
 
@@ -80,7 +81,7 @@ mod tests {
         };
         let mut x = [angles[0]];
         for k in 0..angles.len() {
-            let estimate = source.estimate(&SVector::from([angles[k]]), &SVector::zeros(), &still, &x);
+            let estimate = source.estimate(&SVector::from([angles[k]]), &SVector::zeros(), &still, x.as_slice());
             let difference = if k == 0 { 0.0 } else { (angles[k] - angles[k - 1]) / period };
             assert!((estimate.velocity[0] - difference).abs() < 1e-12);
             let mut rate = [0.0];

@@ -6,6 +6,7 @@
 
 use super::{VelocityEstimate, VelocitySource};
 use crate::scalar::Scalar;
+use crate::states::States;
 use crate::trajectories::Desired;
 use nalgebra::SVector;
 
@@ -35,11 +36,11 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for HighGainObserver<T> {
         position: &SVector<T, N>,
         _velocity: &SVector<T, N>,
         _desired: &Desired<T, N>,
-        states: &[T],
+        states: impl States<T>,
     ) -> VelocityEstimate<T, N> {
         VelocityEstimate {
-            velocity: SVector::from_column_slice(&states[N..2 * N]),
-            observer_error: position - SVector::<T, N>::from_column_slice(&states[..N]),
+            velocity: states.after(N).vector(),
+            observer_error: position - states.vector::<N>(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{VelocityEstimate, VelocitySource};
 use crate::scalar::Scalar;
+use crate::states::States;
 use crate::trajectories::Desired;
 use nalgebra::SVector;
 
@@ -30,7 +31,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for Measured<T, N> {
         position: &SVector<T, N>,
         velocity: &SVector<T, N>,
         _desired: &Desired<T, N>,
-        _states: &[T],
+        _states: impl States<T>,
     ) -> VelocityEstimate<T, N> {
         VelocityEstimate { velocity: *velocity, observer_error: position - self.start }
     }

@@ -15,6 +15,7 @@ pub use measured::Measured;
 pub use observer::ModelFreeObserver;
 
 use crate::scalar::Scalar;
+use crate::states::States;
 use crate::trajectories::Desired;
 use nalgebra::SVector;
 
@@ -44,7 +45,7 @@ pub trait VelocitySource<T: Scalar, const N: usize>: Send {
         position: &SVector<T, N>,
         velocity: &SVector<T, N>,
         desired: &Desired<T, N>,
-        states: &[T],
+        states: impl States<T>,
     ) -> VelocityEstimate<T, N>;
 
     /// Writes the states' derivative.

@@ -7,6 +7,7 @@
 
 use super::{VelocityEstimate, VelocitySource};
 use crate::scalar::Scalar;
+use crate::states::States;
 use crate::trajectories::Desired;
 use nalgebra::SVector;
 
@@ -40,15 +41,15 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for ModelFreeObserver<T, N>
         position: &SVector<T, N>,
         _velocity: &SVector<T, N>,
         desired: &Desired<T, N>,
-        states: &[T],
+        states: impl States<T>,
     ) -> VelocityEstimate<T, N> {
-        let (q_hat, xi) = states.split_at(N);
+        let (q_hat, xi) = (states.first(N), states.after(N).first(N));
         let mut z = SVector::<T, N>::zeros();
         let mut velocity = SVector::<T, N>::zeros();
         for i in 0..N {
-            z[i] = position[i] - q_hat[i];
+            z[i] = position[i] - q_hat.at(i);
             let e = position[i] - desired.position[i];
-            let zeta = desired.velocity[i] - self.lambda_x[i] * e + self.k_d[i] * self.lambda_z[i] * xi[i];
+            let zeta = desired.velocity[i] - self.lambda_x[i] * e + self.k_d[i] * self.lambda_z[i] * xi.at(i);
             velocity[i] = zeta + self.k_d[i] * z[i];
         }
         VelocityEstimate { velocity, observer_error: z }

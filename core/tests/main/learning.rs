@@ -116,7 +116,7 @@ fn concurrent_learning_is_its_equation() {
         assert_eq!(Law::recorded(&states), n);
         let sign = FrictionSign::True.of(&velocity);
         let torque = Vector2::zeros();
-        moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, &states, &mut [0.0; FILTER]));
+        moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, states.as_slice(), &mut [0.0; FILTER]));
     }
     let (geometry, velocity) = at(5);
     let gradient = SVector::<f64, 11>::from_fn(|k, _| 0.1 * k as f64 - 0.3);
@@ -130,7 +130,7 @@ fn concurrent_learning_is_its_equation() {
         theta_hat: &theta_hat,
     };
     let (mut rate, mut states_rate) = ([0.0; 11], vec![9.0; states.len()]);
-    law.derivative(None, &input, &states, &mut rate, &mut states_rate);
+    law.derivative(None, &input, states.as_slice(), &mut rate, &mut states_rate);
     assert!(states_rate[FILTER..].iter().all(|rate| *rate == 0.0), "what is recorded rests");
     let mut drive = DVector::from_column_slice(gradient.as_slice());
     for (y, tau) in &moments {
