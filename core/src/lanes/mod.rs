@@ -22,7 +22,8 @@ pub(crate) use x86_64::{F64x2, F64x4, F64x8};
 
 use crate::scalar::{Kernel, Scalar};
 
-/// How many hyperbolic tangents are computed in step: with what they need, they fill the registers. Browsers order instructions themselves.
+/// How many hyperbolic tangents are computed in step: with what they need, they fill sixteen registers; eight lanes, which have twice as many,
+/// take twice as many where there are. Browsers order instructions themselves.
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 const IN_STEP: usize = if cfg!(target_arch = "wasm32") { 1 } else { 3 };
 
@@ -66,6 +67,17 @@ pub(crate) fn with_lanes<W: WithLanes>(width: usize, work: W) -> Option<W::Outpu
 #[inline(never)]
 fn once<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
+}
+
+/// Hyperbolic tangents in place, `MOST` at a time; gives back those that are left.
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+#[inline(always)]
+fn tanh_in_step<T: Scalar, const MOST: usize>(x: &mut [T]) -> &mut [T] {
+    let (together, rest) = x.as_chunks_mut::<MOST>();
+    for n in 0..together.len() {
+        together[n] = crate::transcendental::tanh_and_sin_cos(together[n], []).0;
+    }
+    rest
 }
 
 /// Makes a type of lanes a [`Scalar`], with the operators that nalgebra and num-traits ask for, out of what differs between
@@ -114,10 +126,9 @@ macro_rules! impl_scalar {
                 angles: [Self; A],
                 wanted: &[bool; A],
             ) -> [(Self, Self); A] {
-                let (together, rest) = x.as_chunks_mut::<{ $crate::lanes::IN_STEP }>();
-                for n in 0..together.len() {
-                    together[n] = transcendental::tanh_and_sin_cos(together[n], []).0;
-                }
+                const MOST: usize = if $width == 8 { 2 * $crate::lanes::IN_STEP } else { $crate::lanes::IN_STEP };
+                let rest = $crate::lanes::tanh_in_step::<Self, MOST>(x);
+                let rest = $crate::lanes::tanh_in_step::<Self, { $crate::lanes::IN_STEP }>(rest);
                 for n in 0..rest.len() {
                     rest[n] = rest[n].tanh();
                 }
