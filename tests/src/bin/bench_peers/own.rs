@@ -88,10 +88,16 @@ pub fn print(name: &str, scheme: &str, repetitions: &str, steps_per_ms: &str) ->
     let mut document = scheme.paper();
     document.integration.step_s = 1e-3 / f64::from(steps_per_ms.parse::<u32>().context("steps per millisecond")?);
     let scenario = Scenario::new(document)?;
-    let runs: Vec<_> = (0..repetitions).map(|_| (own.run)(&scenario)).collect();
+    // Only the last recording is kept, as the peers do with their rows: memory of the others is used again.
+    let (mut seconds, mut last) = (Vec::with_capacity(repetitions), None);
+    for _ in 0..repetitions {
+        let (recording, run_s) = (own.run)(&scenario);
+        seconds.push(run_s);
+        last = Some(recording);
+    }
     let duration_s = scenario.settings().duration_s;
     let times_s: Vec<f64> = (1..=ROWS).map(|n| n as f64 * duration_s / ROWS as f64).collect();
-    let rows = runs.last().map(|(recording, _)| rows(recording, &times_s)).context("no repetitions")??;
+    let rows = rows(&last.context("no repetitions")?, &times_s)?;
     let print = |(time_s, numbers): (&f64, Vec<f64>)| {
         let mut row = Map::from_iter([("t_s".to_owned(), json!(time_s))]);
         let mut rest = numbers.as_slice();
@@ -106,7 +112,7 @@ pub fn print(name: &str, scheme: &str, repetitions: &str, steps_per_ms: &str) ->
         "scheme": scheme.id(),
         "with": format!("adaptarm-core {}", adaptarm_core::VERSION),
         "steps": scenario.settings().steps(),
-        "seconds": runs.iter().map(|(_, seconds)| seconds).collect::<Vec<_>>(),
+        "seconds": seconds,
         "rows": times_s.iter().zip(rows).map(print).collect::<Vec<_>>(),
     });
     println!("{printed}");
