@@ -100,7 +100,8 @@ mod tests {
             let before = y.to_vec();
             let found = rk4.step(start, end, &mut x, |t, x, k| (0..len).for_each(|n| k[n] = rate(t, x[n], n)));
             (0..len).for_each(|n| slopes.first_slope()[n] = rate(start, y[n], n));
-            let f = |t: f64, stage: Stage<'_, f64>, k: &mut [f64]| (0..len).for_each(|n| k[n] = rate(t, stage.at(n), n));
+            let f =
+                |t: f64, stage: Stage<'_, f64>, k: &mut [f64]| (0..len).for_each(|n| k[n] = rate(t, stage.at(n), n));
             assert_eq!(slopes.step_from_slope(start, end, &mut y, f), found);
             assert!(x.iter().zip(y.iter()).all(|(x, y)| x.to_bits() == y.to_bits()));
             assert_eq!(slopes.before(), before);

@@ -154,17 +154,23 @@ where
         let theta_hat = x.after(layout.theta_hat).in_memory::<P>();
         let model = model_torque::<R, T, N, P>(&regressor, theta_hat.as_ref());
         let torque = self.feedback.torque(&sliding, &model);
-        Evaluation { geometry, velocity, sign_velocity, sign_estimate, estimate, sliding, regressor, theta_hat, torque, begun }
+        Evaluation {
+            geometry,
+            velocity,
+            sign_velocity,
+            sign_estimate,
+            estimate,
+            sliding,
+            regressor,
+            theta_hat,
+            torque,
+            begun,
+        }
     }
 
     /// The derivative of the state.
     #[inline(always)]
-    fn write_rate<X: States<T>>(
-        &self,
-        now: &Evaluation<R, A::Begun, X::InMemory<P>, T, N, P>,
-        x: X,
-        rate: &mut [T],
-    ) {
+    fn write_rate<X: States<T>>(&self, now: &Evaluation<R, A::Begun, X::InMemory<P>, T, N, P>, x: X, rate: &mut [T]) {
         let layout = self.layout();
         let (x, rate) = (x.first(layout.len), &mut rate[..layout.len]);
         let acceleration = self.plant.acceleration(&now.geometry, &now.velocity, &now.sign_velocity, &now.torque);
@@ -190,19 +196,13 @@ where
     /// A row of a recording.
     #[inline(always)]
     fn write_row<X: States<T>>(
-        &self,
         now: &Evaluation<R, A::Begun, X::InMemory<P>, T, N, P>,
         desired: &Desired<T, N>,
         x: X,
         row: &mut [T],
     ) {
-        let blocks = [
-            now.sliding.error,
-            now.velocity - desired.velocity,
-            now.estimate.observer_error,
-            now.torque,
-            x.vector(),
-        ];
+        let blocks =
+            [now.sliding.error, now.velocity - desired.velocity, now.estimate.observer_error, now.torque, x.vector()];
         write_row(row, &blocks, now.theta_hat.as_ref(), &now.sliding.sliding_variable);
     }
 }
@@ -356,7 +356,7 @@ where
             Want::Error(_) => (None, None),
         };
         if let Some(row) = row {
-            system.write_row(&now, &desired, x, row);
+            ClosedLoop::<R, V, A, T, N, P>::write_row(&now, &desired, x, row);
         }
         if let Some(rate) = rate {
             system.write_rate(&now, x, rate);

@@ -38,10 +38,7 @@ impl<T: Scalar, const N: usize> VelocitySource<T, N> for HighGainObserver<T> {
         _desired: &Desired<T, N>,
         states: impl States<T>,
     ) -> VelocityEstimate<T, N> {
-        VelocityEstimate {
-            velocity: states.after(N).vector(),
-            observer_error: position - states.vector::<N>(),
-        }
+        VelocityEstimate { velocity: states.after(N).vector(), observer_error: position - states.vector::<N>() }
     }
 
     #[inline(always)]
