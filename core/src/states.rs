@@ -95,9 +95,6 @@ pub struct Stage<'a, T> {
 }
 
 impl<T: Scalar> Stage<'_, T> {
-    /// Whether steps are worth taking with such stages: where the arrays of a run are larger than the first cache. Four lanes gain nothing.
-    pub const IS_WORTH_IT: bool = T::LANES >= 8;
-
     /// The stage in memory.
     pub fn to_vec(self) -> Vec<T> {
         (0..self.x.len()).map(|n| self.at(n)).collect()

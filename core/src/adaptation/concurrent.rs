@@ -36,11 +36,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> ConcurrentLearni
     const MOMENT: usize = R::ENTRIES.len() + N;
 
     /// Moments recorded.
-    pub fn recorded(states: &[T]) -> usize {
-        Self::count(states)
-    }
-
-    fn count(states: impl States<T>) -> usize {
+    pub fn recorded(states: impl States<T>) -> usize {
         states.at(Self::FILTER).lane(0) as usize
     }
 
@@ -142,9 +138,9 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> AdaptationLaw<R,
         let (filter_rate, stack_rate) = states_rate.split_at_mut(Self::FILTER);
         self.filter.advance(input.geometry, input.velocity, input.sign_velocity, input.torque, states, filter_rate);
         stack_rate.fill(T::zero());
-        let count = Self::count(states);
+        let count = Self::recorded(states);
         let mut drive = *input.gradient;
-        for n in 0..count {
+        for n in 0..count.min(self.capacity) {
             let (filtered, filtered_torque) = Self::read(moments.after(n * Self::MOMENT));
             let error = model_torque::<R, T, N, P>(&filtered, input.theta_hat) - filtered_torque;
             drive += gradient::<R, T, N, P>(&filtered, &error) * (self.weight / T::splat(count as f64));

@@ -282,6 +282,7 @@ mod tests {
     use crate::regressor::model_torque;
     use crate::robots::{CrsA465, Pendulum, TwoLink};
     use crate::scalar::Kernel;
+    use crate::states::Stage;
     use nalgebra::SMatrix;
     use proptest::prelude::*;
 
@@ -348,6 +349,12 @@ mod tests {
             let theta_hat_rate = self.0.theta_hat_rate.map(T::splat);
             memory.correlation_rate(&filtered, &rows, states.as_slice(), &mut rate);
             memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), states.as_slice(), &mut rate);
+            // At a stage that is nowhere in memory, too.
+            let (still, mut at_stage) = (ones(len), ones(len));
+            let stage = Stage { x: &states, h: T::zero(), slope: &still };
+            memory.correlation_rate(&filtered, &rows, stage, &mut at_stage);
+            memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), stage, &mut at_stage);
+            assert!(at_stage == rate, "{at_stage:?}");
             PredictionMemory::<R, T, N, P>::write_plain(&rate, &mut written);
             // Numbers that are kept twice stay the same.
             let mut again = ones(len);

@@ -10,16 +10,16 @@ use crate::scalar::{Kernel, Scalar, zero_where_finite};
 pub struct Rk4<T> {
     /// k1, then k1 + 2 k2, then k1 + 2 k2 + 2 k3.
     sum: Aligned<T>,
-    /// The state at a stage, or the slope there: where one is, the next stage is put in its place.
+    /// Stage 2, then k3, then stage 4.
     one: Aligned<T>,
-    /// The same, the other way round; after a step, what the state was before it.
+    /// k2, then stage 3, then k4, then the end; after a step, which the caller's state changes places with, the state before it.
     other: Aligned<T>,
 }
 
 impl<T: Scalar> Rk4<T> {
     /// Work space for `len` states.
     pub fn new(len: usize) -> Self {
-        // The state, with which the stage changes places after each step, begins where a page does.
+        // The state, with which the last changes places after each step, begins where a page does.
         let zeros = |n| Aligned::apart(T::zero(), len, n);
         Self { sum: zeros(1), one: zeros(2), other: zeros(3) }
     }
@@ -44,7 +44,8 @@ impl<T: Scalar> Rk4<T> {
         &mut self.other
     }
 
-    /// Advances `x` from `start_s` to `end_s`: `x + h/6 (k1 + 2 k2 + 2 k3 + k4)`; `f(t, x, rate)` writes the derivative.
+    /// Advances `x` from `start_s` to `end_s`: `x + h/6 (k1 + 2 k2 + 2 k3 + k4)`; `f(t, x, rate)` writes the derivative, all of it: a rate
+    /// that it leaves out is what stood in that place, which is zero only where the state is.
     /// The end is given as a time, so that consecutive steps meet in the same bits. Gives zero where every state is finite.
     pub fn step(&mut self, start_s: f64, end_s: f64, x: &mut Aligned<T>, mut f: impl FnMut(f64, &[T], &mut [T])) -> T {
         f(start_s, x, &mut self.sum);
@@ -61,7 +62,7 @@ impl<T: Scalar> Rk4<T> {
     ) -> T {
         let (h, middle_s) = (end_s - start_s, Self::middle_s(start_s, end_s));
         let Self { sum, one, other } = self;
-        T::compiled(Stage { out: one, x, h: 0.5 * h, slope: sum });
+        T::compiled(FirstStage { out: one, x, h: 0.5 * h, slope: sum });
         f(middle_s, one, other);
         T::compiled(NextStage { place: other, sum, x, h: 0.5 * h });
         f(middle_s, other, one);
@@ -74,14 +75,14 @@ impl<T: Scalar> Rk4<T> {
 }
 
 /// `stage = x + h k`.
-struct Stage<'a, T> {
+struct FirstStage<'a, T> {
     out: &'a mut [T],
     x: &'a [T],
     h: f64,
     slope: &'a [T],
 }
 
-impl<T: Scalar> Kernel for Stage<'_, T> {
+impl<T: Scalar> Kernel for FirstStage<'_, T> {
     type Output = ();
     const LOOPS_OVER_NUMBERS: bool = true;
 
@@ -184,6 +185,17 @@ mod tests {
     fn converges_at_order_four() {
         let order = (error(20) / error(40)).log2();
         assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+
+    #[test]
+    fn what_is_zero_and_never_moves_stays_zero() {
+        let mut x = Aligned::repeat(0.0, 2);
+        x[0] = 1.0;
+        let mut rk4 = Rk4::new(2);
+        for n in 0..5 {
+            rk4.step(f64::from(n), f64::from(n + 1), &mut x, |_, x, rate| rate[0] = -x[0]);
+            assert_eq!(x[1].to_bits(), 0);
+        }
     }
 
     #[test]

@@ -22,8 +22,8 @@ pub(crate) use x86_64::{F64x2, F64x4, F64x8};
 
 use crate::scalar::{Kernel, Scalar};
 
-/// How many hyperbolic tangents are computed in step: with what they need, they fill sixteen registers; eight lanes, which have twice as many,
-/// take twice as many where there are. Browsers order instructions themselves.
+/// How many hyperbolic tangents are computed in step: with what they need, they fill sixteen registers. Eight lanes have twice as many
+/// registers and first take twice as many at a time. Browsers order instructions themselves.
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 const IN_STEP: usize = if cfg!(target_arch = "wasm32") { 1 } else { 3 };
 

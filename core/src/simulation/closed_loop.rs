@@ -3,7 +3,7 @@
 //! State vector: q, q̇, the velocity source's states, θ̂, filled up to a whole vector, the adaptation law's states. All that depends on q alone is
 //! computed once per evaluation and shared by plant, controller and filter.
 
-use super::StateSpace;
+use super::{StateSpace, evaluates_stages};
 use crate::adaptation::{AdaptationInput, AdaptationLaw};
 use crate::control::{SlidingFeedback, SlidingSignals};
 use crate::dynamics::Plant;
@@ -261,7 +261,8 @@ where
     }
 
     fn derivative_at(&self, time_s: f64, stage: Stage<'_, T>, rate: &mut [T]) {
-        if Stage::<T>::IS_WORTH_IT {
+        // A second copy of the computation, for those only that ask for it.
+        if evaluates_stages::<T>() {
             T::compiled(At { system: self, time_s, x: stage, want: Want::Rate(rate) });
         } else {
             self.derivative(time_s, &stage.to_vec(), rate);

@@ -5,11 +5,12 @@
 
 use super::recorder::Recorder;
 use super::run::exceeded_joint;
-use super::{Divergence, Outcome, Settings, Snapshot, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD};
+use super::{
+    Divergence, Outcome, Settings, Snapshot, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD, evaluates_stages,
+};
 use crate::integrators::{Aligned, Rk4, Rk4Slopes};
 use crate::recording::Recording;
 use crate::scalar::{Kernel, Scalar, zero_where_finite};
-use crate::states::Stage;
 
 /// Lanes under way, whatever their scalar.
 pub(crate) trait Lockstep: Send {
@@ -28,7 +29,7 @@ pub(crate) struct Lanes<T: Scalar> {
     system: Box<dyn StateSpace<T>>,
     settings: Settings,
     step_times: StepTimes,
-    rk4: Steps<T>,
+    rk4: Stepper<T>,
     /// Steps from one sample to the next.
     every: u64,
     state: Aligned<T>,
@@ -43,14 +44,14 @@ pub(crate) struct Lanes<T: Scalar> {
 }
 
 /// Where stages are: in memory, or computed where they are read. Both have the same bits.
-enum Steps<T> {
+enum Stepper<T> {
     InMemory(Rk4<T>),
     Computed(Rk4Slopes<T>),
 }
 
-impl<T: Scalar> Steps<T> {
+impl<T: Scalar> Stepper<T> {
     fn new(len: usize) -> Self {
-        if Stage::<T>::IS_WORTH_IT { Self::Computed(Rk4Slopes::new(len)) } else { Self::InMemory(Rk4::new(len)) }
+        if evaluates_stages::<T>() { Self::Computed(Rk4Slopes::new(len)) } else { Self::InMemory(Rk4::new(len)) }
     }
 
     fn first_slope(&mut self) -> &mut [T] {
@@ -108,7 +109,7 @@ impl<T: Scalar> Lanes<T> {
             system,
             settings,
             step_times: settings.step_times(),
-            rk4: Steps::new(len),
+            rk4: Stepper::new(len),
             every,
             state,
             row: zeros(width),

@@ -60,9 +60,10 @@ pub trait StateSpace<T: Scalar>: Send {
     fn initialize(&self, x: &mut [T]);
     /// Says at which instants after the first start the next fixed steps will evaluate the system, [`MOST_FORESEEN`] at most.
     fn foresee(&self, _times_s: &[f64]) {}
-    /// Writes `f(t, x)`.
+    /// Writes `f(t, x)`: every rate, but for states that are zero and stay so, whose place in `rate` holds zero already.
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
-    /// Writes `f(t, x)` at a stage of a step that is nowhere in memory.
+    /// Writes `f(t, x)` at a stage of a step that is nowhere in memory. Where lanes take their steps so (`evaluates_stages`) a system has its
+    /// own way; this one is right for any, and allocates.
     fn derivative_at(&self, time_s: f64, stage: Stage<'_, T>, rate: &mut [T]) {
         self.derivative(time_s, &stage.to_vec(), rate);
     }
@@ -80,6 +81,12 @@ pub trait StateSpace<T: Scalar>: Send {
     }
     /// What changes in one instant, at the start of fixed step `step`: samples of a controller's clock, loads that come and go.
     fn begin_step(&self, _step: u64, _time_s: f64, _x: &mut [T]) {}
+}
+
+/// Whether lanes of this kind evaluate stages that are nowhere in memory: where the arrays of all their runs are larger than the first cache.
+/// Four lanes are as fast either way.
+const fn evaluates_stages<T: Scalar>() -> bool {
+    T::LANES >= 8
 }
 
 /// How many steps one run foresees at once. Lanes foresee one: they need not wait for sines, and have little room in the first cache.

@@ -80,15 +80,14 @@ fn every_lane_has_the_bits_of_its_run_alone() {
 }
 
 /// Gains so high that the run diverges.
-fn wild() -> Scenario {
-    let mut wild = short(Scheme::SlotineLi);
-    wild.scheme = match scenario(wild.clone()).document().scheme.clone() {
-        SchemeDocument::SlotineLi(Some(mut gains)) => {
-            gains.k_s = vec![1e5; 3];
-            SchemeDocument::SlotineLi(Some(gains))
-        }
+fn wild(scheme: Scheme) -> Scenario {
+    let mut wild = scenario(short(scheme)).document().clone();
+    match &mut wild.scheme {
+        SchemeDocument::SlotineLi(Some(gains)) => gains.k_s = vec![1e5; 3],
+        SchemeDocument::TangArteaga(Some(gains)) => gains.k_s = vec![1e5; 3],
+        SchemeDocument::Proposed(Some(gains)) => gains.k_v = vec![1e5; 3],
         _ => panic!("gains are filled in"),
-    };
+    }
     scenario(wild)
 }
 
@@ -100,9 +99,11 @@ fn groups_paused_at_any_step_give_the_same_bits() {
         scenario(document)
     };
     let lanes = (0..5).map(|n| varied(Scheme::SlotineLi, n)).collect();
-    let with_a_wild_one = vec![wild(), scenario(short(Scheme::SlotineLi)), wild(), scenario(short(Scheme::SlotineLi))];
+    let (wild, calm) = (|| wild(Scheme::SlotineLi), || scenario(short(Scheme::SlotineLi)));
+    let with_wild_ones = vec![wild(), calm(), wild(), calm()];
+    let eight_with_a_wild_one = vec![calm(), calm(), calm(), calm(), wild(), calm()];
     let alone = vec![adaptive(0), adaptive(1)];
-    for scenarios in [lanes, with_a_wild_one, alone, vec![varied(Scheme::Proposed, 0)]] {
+    for scenarios in [lanes, with_wild_ones, eight_with_a_wild_one, alone, vec![varied(Scheme::Proposed, 0)]] {
         let members: Vec<_> = scenarios.iter().collect();
         let expected: Vec<_> = scenarios.iter().map(Scenario::run).collect();
         for pause in [1, 2, 7, 150, 299] {
@@ -154,14 +155,23 @@ fn a_run_left_alone_goes_on_in_a_lane_and_alone_again() {
 
 #[test]
 fn a_lane_that_diverges_leaves_the_others_alone() {
-    let (calm, wild) = (scenario(short(Scheme::SlotineLi)), wild());
-    let (calm_alone, wild_alone) = (calm.run(), wild.run());
-    assert_eq!(wild_alone.report.outcome, OutcomeKind::Diverged);
-    for &width in lanes::widths().iter().filter(|&&width| width > 1) {
-        for at in 0..width {
-            let members: Vec<_> = (0..width).map(|n| if n == at { &wild } else { &calm }).collect();
-            for (n, run) in side_by_side(&members, width).into_iter().enumerate() {
-                assert!(run == *if n == at { &wild_alone } else { &calm_alone }, "lane {n} of {width}, wild one {at}");
+    for scheme in Scheme::ALL {
+        let (calm, wild) = (scenario(short(scheme)), wild(scheme));
+        let (calm_alone, wild_alone) = (calm.run(), wild.run());
+        assert_eq!(wild_alone.report.outcome, OutcomeKind::Diverged);
+        let mut diverged = wild.start();
+        assert!(diverged.advance(u64::MAX));
+        for &width in lanes::widths().iter().filter(|&&width| width > 1) {
+            for at in 0..width {
+                let members: Vec<_> = (0..width).map(|n| if n == at { &wild } else { &calm }).collect();
+                for (n, run) in side_by_side(&members, width).into_iter().enumerate() {
+                    let expected = if n == at { &wild_alone } else { &calm_alone };
+                    assert!(run == *expected, "{}: lane {n} of {width}, wild one {at}", scheme.id());
+                }
+                // Its states, too, are those that it leaves alone.
+                let mut together = SideBySide::start(&members, width).unwrap();
+                while !together.advance(70) {}
+                assert!(together.snapshots()[at] == diverged.snapshot(), "{}: lane {at} of {width}", scheme.id());
             }
         }
     }

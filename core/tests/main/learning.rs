@@ -113,7 +113,7 @@ fn concurrent_learning_is_its_equation() {
         }
         let (geometry, velocity) = at(n);
         law.record(&geometry, &velocity, &mut states);
-        assert_eq!(Law::recorded(&states), n);
+        assert_eq!(Law::recorded(states.as_slice()), n);
         let sign = FrictionSign::True.of(&velocity);
         let torque = Vector2::zeros();
         moments.push(law.filter.advance(&geometry, &velocity, &sign, &torque, states.as_slice(), &mut [0.0; FILTER]));

@@ -91,6 +91,7 @@ pub fn print(name: &str, scheme: &str, repetitions: &str, steps_per_ms: &str) ->
     // Only the last recording is kept, as the peers do with their rows: memory of the others is used again.
     let (mut seconds, mut last) = (Vec::with_capacity(repetitions), None);
     for _ in 0..repetitions {
+        drop(last.take());
         let (recording, run_s) = (own.run)(&scenario);
         seconds.push(run_s);
         last = Some(recording);
