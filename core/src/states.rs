@@ -88,8 +88,8 @@ impl<T: Scalar> States<T> for &[T] {
 pub struct Stage<'a, T> {
     /// x.
     pub x: &'a [T],
-    /// h.
-    pub h: T,
+    /// h, the same in every lane.
+    pub h: f64,
     /// k.
     pub slope: &'a [T],
 }
@@ -110,7 +110,7 @@ impl<T: Scalar> States<T> for Stage<'_, T> {
     }
     #[inline(always)]
     fn at(self, n: usize) -> T {
-        self.x[n] + self.h * self.slope[n]
+        self.x[n] + T::splat(self.h) * self.slope[n]
     }
     #[inline(always)]
     fn after(self, start: usize) -> Self {

@@ -188,16 +188,17 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         theta_hat_rate: &mut [T],
         states_rate: &mut [T],
     ) {
+        let (filter, memory) = (states, states.after(Self::MEMORY));
+        // First, because it asks for no Yf: the fewer numbers wait meanwhile, the fewer go to memory and back.
+        self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
         let (filtered, rows) = if let Some(begun) = begun {
             begun
         } else {
             let AdaptationInput { geometry, velocity, sign_velocity, .. } = input;
             self.begin(geometry, velocity, sign_velocity, states, Some(&mut *states_rate))
         };
-        let (filter, memory) = (states, states.after(Self::MEMORY));
         let (filter_rate, memory_rate) = states_rate.split_at_mut(Self::MEMORY);
         let filtered_torque = self.filter.torque(input.torque, filter, filter_rate);
-        self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
         let prediction_error = model_torque::<R, T, N, P>(&filtered, input.theta_hat) - filtered_torque;
         self.memory.derivative(&filtered, &rows, &prediction_error, theta_hat_rate, memory, memory_rate);
     }

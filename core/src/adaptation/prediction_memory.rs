@@ -351,7 +351,7 @@ mod tests {
             memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), states.as_slice(), &mut rate);
             // At a stage that is nowhere in memory, too.
             let (still, mut at_stage) = (ones(len), ones(len));
-            let stage = Stage { x: &states, h: T::zero(), slope: &still };
+            let stage = Stage { x: &states, h: 0.0, slope: &still };
             memory.correlation_rate(&filtered, &rows, stage, &mut at_stage);
             memory.derivative(&filtered, &rows, &error, theta_hat_rate.as_slice(), stage, &mut at_stage);
             assert!(at_stage == rate, "{at_stage:?}");

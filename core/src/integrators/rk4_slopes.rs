@@ -37,14 +37,14 @@ impl<T: Scalar> Rk4Slopes<T> {
         start_s: f64,
         end_s: f64,
         x: &mut Aligned<T>,
-        mut f: impl FnMut(f64, Stage<'_, T>, &mut [T]),
+        mut f: impl FnMut(f64, &Stage<'_, T>, &mut [T]),
     ) -> T {
         let (h, middle_s) = (end_s - start_s, Rk4::<T>::middle_s(start_s, end_s));
-        let half = T::splat(0.5 * h);
+        let half = 0.5 * h;
         let [k1, k2, k3, k4] = &mut self.slopes;
-        f(middle_s, Stage { x, h: half, slope: k1 }, k2);
-        f(middle_s, Stage { x, h: half, slope: k2 }, k3);
-        f(end_s, Stage { x, h: T::splat(h), slope: k3 }, k4);
+        f(middle_s, &Stage { x, h: half, slope: k1 }, k2);
+        f(middle_s, &Stage { x, h: half, slope: k2 }, k3);
+        f(end_s, &Stage { x, h, slope: k3 }, k4);
         let finite = T::compiled(End { x, h, slopes: [k1, k2, k3], place: k4 });
         std::mem::swap(x, k4);
         finite
@@ -101,7 +101,7 @@ mod tests {
             let found = rk4
                 .step(start, end, &mut x, |t, x, k| (0..len).for_each(|n| k[n] = rate(t, x[n], x[(n + 1) % len], n)));
             (0..len).for_each(|n| slopes.first_slope()[n] = rate(start, y[n], y[(n + 1) % len], n));
-            let f = |t: f64, stage: Stage<'_, f64>, k: &mut [f64]| {
+            let f = |t: f64, stage: &Stage<'_, f64>, k: &mut [f64]| {
                 (0..len).for_each(|n| k[n] = rate(t, stage.at(n), stage.at((n + 1) % len), n));
             };
             assert_eq!(slopes.step_from_slope(start, end, &mut y, f), found);

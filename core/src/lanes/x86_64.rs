@@ -144,6 +144,9 @@ macro_rules! lanes {
             fn run_with_instructions<K: Kernel>(kernel: K) -> K::Output {
                 #[target_feature(enable = $features)]
                 fn with_instructions<K: Kernel>(kernel: K) -> K::Output {
+                    // Something that begins where a vector may, and is believed to be looked at: else the frame of a kernel that holds no vector in a
+                    // variable begins anywhere, and each vector that is put there lies across two cache lines.
+                    std::hint::black_box(&std::mem::MaybeUninit::<$vector>::uninit());
                     kernel.run()
                 }
                 unsafe { with_instructions(kernel) }

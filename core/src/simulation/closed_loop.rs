@@ -257,10 +257,10 @@ where
     }
 
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]) {
-        T::compiled(At { system: self, time_s, x, want: Want::Rate(rate) });
+        T::compiled(At { system: self, time_s, x: &x, want: Want::Rate(rate) });
     }
 
-    fn derivative_at(&self, time_s: f64, stage: Stage<'_, T>, rate: &mut [T]) {
+    fn derivative_at(&self, time_s: f64, stage: &Stage<'_, T>, rate: &mut [T]) {
         // A second copy of the computation, for those only that ask for it.
         if evaluates_stages::<T>() {
             T::compiled(At { system: self, time_s, x: stage, want: Want::Rate(rate) });
@@ -270,15 +270,15 @@ where
     }
 
     fn observe(&self, time_s: f64, x: &[T], row: &mut [T]) {
-        T::compiled(At { system: self, time_s, x, want: Want::Row(row) });
+        T::compiled(At { system: self, time_s, x: &x, want: Want::Row(row) });
     }
 
     fn observe_and_derive(&self, time_s: f64, x: &[T], row: &mut [T], rate: &mut [T]) {
-        T::compiled(At { system: self, time_s, x, want: Want::Both(row, rate) });
+        T::compiled(At { system: self, time_s, x: &x, want: Want::Both(row, rate) });
     }
 
     fn tracking_error(&self, time_s: f64, x: &[T], error: &mut [T]) {
-        T::compiled(At { system: self, time_s, x, want: Want::Error(error) });
+        T::compiled(At { system: self, time_s, x: &x, want: Want::Error(error) });
     }
 
     fn theta_hat<'a>(&self, x: &'a [T]) -> &'a [T] {
@@ -310,11 +310,12 @@ enum Want<'a, T> {
     Error(&'a mut [T]),
 }
 
-/// A closed loop in one state: the computation that is compiled for each kind of scalar.
+/// A closed loop in one state: the computation that is compiled for each kind of scalar. It refers to the state, because a copy of a stage, made 16
+/// bytes at a time of what was just written in eights, waits for all that is still to be written.
 struct At<'a, S, X, T> {
     system: &'a S,
     time_s: f64,
-    x: X,
+    x: &'a X,
     want: Want<'a, T>,
 }
 

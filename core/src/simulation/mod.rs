@@ -64,7 +64,7 @@ pub trait StateSpace<T: Scalar>: Send {
     fn derivative(&self, time_s: f64, x: &[T], rate: &mut [T]);
     /// Writes `f(t, x)` at a stage of a step that is nowhere in memory. Where lanes take their steps so (`evaluates_stages`) a system has its
     /// own way; this one is right for any, and allocates.
-    fn derivative_at(&self, time_s: f64, stage: Stage<'_, T>, rate: &mut [T]) {
+    fn derivative_at(&self, time_s: f64, stage: &Stage<'_, T>, rate: &mut [T]) {
         self.derivative(time_s, &stage.to_vec(), rate);
     }
     /// Writes one row of a recording without its time: see [`Columns`].
