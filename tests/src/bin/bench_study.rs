@@ -9,6 +9,7 @@ use adaptarm_core::scenario::{Scenario, Scheme, run_each};
 use adaptarm_tests::timing::median;
 use anyhow::Result;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 const ROUNDS: usize = 15;
@@ -63,9 +64,11 @@ fn durations() -> Result<()> {
     Ok(())
 }
 
-/// A batch of different runs on one thread against two.
+/// A batch of different runs on one thread against two. Threads fetch shares of it, as workers fetch a job's shards: else one that the
+/// machine holds up makes the other wait.
 fn threads() -> Result<()> {
     const RUNS: usize = 1000;
+    const SHARE: usize = 40;
     const THREAD_ROUNDS: usize = 7;
     let scenarios = (0..RUNS)
         .map(|n| {
@@ -76,23 +79,27 @@ fn threads() -> Result<()> {
             Scenario::new(document)
         })
         .collect::<Result<Vec<_>, _>>()?;
-    let run = |scenarios: &[Scenario]| {
-        let _ = run_each(scenarios, |_, run| {
-            std::hint::black_box(run);
-            ControlFlow::Continue(())
+    let shares: Vec<_> = scenarios.chunks(SHARE).collect();
+    let work = |next: &AtomicUsize| {
+        while let Some(share) = shares.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let _ = run_each(share, |_, run| {
+                std::hint::black_box(run);
+                ControlFlow::Continue(())
+            });
+        }
+    };
+    let on_threads = |count: usize| {
+        let next = AtomicUsize::new(0);
+        std::thread::scope(|scope| {
+            for _ in 0..count {
+                scope.spawn(|| work(&next));
+            }
         });
     };
     let mut ratios = Vec::new();
     let mut one_thread_s = Vec::new();
     for _ in 0..THREAD_ROUNDS {
-        let one = seconds(|| run(&scenarios));
-        let two = seconds(|| {
-            std::thread::scope(|scope| {
-                for half in scenarios.chunks(RUNS.div_ceil(2)) {
-                    scope.spawn(|| run(half));
-                }
-            });
-        });
+        let (one, two) = (seconds(|| on_threads(1)), seconds(|| on_threads(2)));
         ratios.push(one / two);
         one_thread_s.push(one);
     }
