@@ -189,7 +189,7 @@ impl<R: Robot<N, P>, T: Scalar, const N: usize, const P: usize> CompositeAdaptat
         states_rate: &mut [T],
     ) {
         let (filter, memory) = (states, states.after(Self::MEMORY));
-        // First, because it asks for no Yf: the fewer numbers wait meanwhile, the fewer go to memory and back.
+        // First, because it asks for no Yf: where that is not begun yet, fewer numbers wait meanwhile, and fewer go to memory and back.
         self.law.theta_hat_rate::<R, N>(memory, input.gradient, input.theta_hat, theta_hat_rate);
         let (filtered, rows) = if let Some(begun) = begun {
             begun

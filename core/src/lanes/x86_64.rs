@@ -144,8 +144,8 @@ macro_rules! lanes {
             fn run_with_instructions<K: Kernel>(kernel: K) -> K::Output {
                 #[target_feature(enable = $features)]
                 fn with_instructions<K: Kernel>(kernel: K) -> K::Output {
-                    // Something that begins where a vector may, and is believed to be looked at: else the frame of a kernel that holds no vector in a
-                    // variable begins anywhere, and each vector that is put there lies across two cache lines.
+                    // A variable that is aligned as a vector is, and that the compiler must take to be read: else the frame of a kernel
+                    // without a vector variable is aligned to 16 bytes only, and vectors on it may lie across two cache lines.
                     std::hint::black_box(&std::mem::MaybeUninit::<$vector>::uninit());
                     kernel.run()
                 }

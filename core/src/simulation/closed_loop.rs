@@ -310,8 +310,8 @@ enum Want<'a, T> {
     Error(&'a mut [T]),
 }
 
-/// A closed loop in one state: the computation that is compiled for each kind of scalar. It refers to the state, because a copy of a stage, made 16
-/// bytes at a time of what was just written in eights, waits for all that is still to be written.
+/// A closed loop in one state: the computation that is compiled for each kind of scalar. It refers to the state, because
+/// a copy of a stage reads 16 bytes at a time what was just written 8 bytes at a time, and then waits until all earlier writes are done.
 struct At<'a, S, X, T> {
     system: &'a S,
     time_s: f64,
