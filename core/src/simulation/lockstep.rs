@@ -41,8 +41,6 @@ pub(crate) struct Lanes<T: Scalar> {
     time_s: f64,
     /// Of the runs that were asked for; lanes behind the last are not heard.
     runs: Vec<LaneRun>,
-    /// How many of them have not ended.
-    running: usize,
 }
 
 /// Where stages are: in memory, or computed where they are read. Both have the same bits.
@@ -119,7 +117,6 @@ impl<T: Scalar> Lanes<T> {
             error: zeros(settings.columns.joints),
             step: 0,
             time_s: 0.0,
-            running: identities.len(),
             runs: identities.into_iter().map(run).collect(),
         })
     }
@@ -145,7 +142,6 @@ impl<T: Scalar> Lanes<T> {
             run.recorder.recording = Recording::from_rows(settings.columns, rows)?;
             run.end = outcome.map(|outcome| End { outcome, step, time_s, state });
         }
-        lanes.running = lanes.runs.iter().filter(|run| run.end.is_none()).count();
         Some(lanes)
     }
 
@@ -212,11 +208,10 @@ impl<T: Scalar> Lanes<T> {
         }
     }
 
-    /// Ends a run that has not ended, in its state now or before the last step.
+    /// Ends a run, in its state now or before the last step.
     fn end(&mut self, lane: usize, outcome: Outcome, before: bool) {
         let state = lane_of(if before { self.rk4.before() } else { &self.state }, lane);
         self.runs[lane].end = Some(End { outcome, step: self.step, time_s: self.time_s, state });
-        self.running -= 1;
     }
 }
 
@@ -269,12 +264,12 @@ fn lane_of<T: Scalar>(x: &[T], lane: usize) -> Vec<f64> {
 impl<T: Scalar> Lockstep for Lanes<T> {
     fn advance(&mut self, max_steps: u64) -> bool {
         for _ in 0..max_steps {
-            if self.running == 0 {
+            if self.runs.iter().all(|run| run.end.is_some()) {
                 return true;
             }
             self.take_step();
         }
-        self.running == 0
+        self.runs.iter().all(|run| run.end.is_some())
     }
 
     fn step(&self) -> u64 {
