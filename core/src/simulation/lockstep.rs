@@ -38,6 +38,8 @@ pub(crate) struct Lanes<T: Scalar> {
     rows: Vec<f64>,
     error: Vec<T>,
     step: u64,
+    /// See [`StepTimes::foresee`].
+    foreseen: u64,
     time_s: f64,
     /// Of the runs that were asked for; lanes behind the last are not heard.
     runs: Vec<LaneRun>,
@@ -116,6 +118,7 @@ impl<T: Scalar> Lanes<T> {
             rows: vec![0.0; width * T::LANES],
             error: zeros(settings.columns.joints),
             step: 0,
+            foreseen: 0,
             time_s: 0.0,
             runs: identities.into_iter().map(run).collect(),
         })
@@ -155,7 +158,7 @@ impl<T: Scalar> Lanes<T> {
             self.system.derivative(self.time_s, &self.state, slope);
         }
         let (system, end_s) = (&*self.system, self.step_times.start_s(self.step + 1));
-        system.foresee(self.step_times.foreseen_s::<1>(self.step).as_flattened());
+        self.step_times.foresee(system, self.step, &mut self.foreseen);
         let finite = self.rk4.step_from_slope(system, self.time_s, end_s, &mut self.state);
         self.time_s = end_s;
         self.step += 1;

@@ -89,7 +89,7 @@ const fn evaluates_stages<T: Scalar>() -> bool {
     T::LANES >= 8
 }
 
-/// How many steps one run foresees at once. Lanes foresee one: they need not wait for sines, and have little room in the first cache.
+/// How many steps are foreseen at once.
 const STEPS_FORESEEN: usize = MOST_FORESEEN / 2;
 
 /// How to integrate.
@@ -115,14 +115,19 @@ impl StepTimes {
         if n >= self.steps { self.duration_s } else { n as f64 * self.step_s }
     }
 
-    /// Middles and ends of `STEPS` steps, from step `n` on: where RK4 evaluates them.
-    fn foreseen_s<const STEPS: usize>(&self, n: u64) -> [[f64; 2]; STEPS] {
-        let mut times_s = [[0.0; 2]; STEPS];
+    /// Tells a system where RK4 will evaluate it, the middles and ends of steps from `n` on, unless `foreseen`, the first step that it was told nothing
+    /// of, is still to come.
+    fn foresee<T: Scalar>(&self, system: &dyn StateSpace<T>, n: u64, foreseen: &mut u64) {
+        if n < *foreseen {
+            return;
+        }
+        let mut times_s = [[0.0; 2]; STEPS_FORESEEN];
         for (times_s, n) in times_s.iter_mut().zip(n..) {
             let (start_s, end_s) = (self.start_s(n), self.start_s(n + 1));
             *times_s = [Rk4::<f64>::middle_s(start_s, end_s), end_s];
         }
-        times_s
+        system.foresee(times_s.as_flattened());
+        *foreseen = n + STEPS_FORESEEN as u64;
     }
 }
 

@@ -2,8 +2,7 @@
 
 use super::recorder::Recorder;
 use super::{
-    Divergence, Method, Outcome, STEPS_FORESEEN, Settings, Snapshot, SnapshotError, StateSpace, StepTimes,
-    TRACKING_ERROR_LIMIT_RAD,
+    Divergence, Method, Outcome, Settings, Snapshot, SnapshotError, StateSpace, StepTimes, TRACKING_ERROR_LIMIT_RAD,
 };
 use crate::integrators::{Aligned, Dopri5, Rk4};
 use crate::recording::Recording;
@@ -50,7 +49,7 @@ pub struct Simulation {
     /// Work space for the tracking error.
     error: Vec<f64>,
     step: u64,
-    /// Steps before this one have been foreseen.
+    /// See [`StepTimes::foresee`].
     foreseen: u64,
     time_s: f64,
     evaluations: u64,
@@ -295,11 +294,7 @@ impl Simulation {
         let end_s = self.step_times.start_s(self.step + 1);
         match &mut self.stepper {
             Stepper::Rk4OnGrid { rk4, .. } | Stepper::Rk4 { rk4, .. } => {
-                if self.step >= self.foreseen {
-                    let times_s = self.step_times.foreseen_s::<STEPS_FORESEEN>(self.step);
-                    system.foresee(times_s.as_flattened());
-                    self.foreseen = self.step + STEPS_FORESEEN as u64;
-                }
+                self.step_times.foresee(system, self.step, &mut self.foreseen);
                 let finite = if knows_slope {
                     let finite = rk4.step_from_slope(start_s, end_s, &mut self.state, counted);
                     *evaluations += 1;
