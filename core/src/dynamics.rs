@@ -50,10 +50,11 @@ impl<T: Scalar> FrictionSign<T> {
         angles: [T; A],
         wanted: &[bool; A],
     ) -> ([SVector<T, N>; K], [(T, T); A]) {
-        let mut sign = [[T::zero(); N]; K];
+        // Joint by joint: a joint's velocities are alike, and their tangents ±1 together, so that none of them is computed.
+        let mut sign = [[T::zero(); K]; N];
         for k in 0..K {
             for i in 0..N {
-                sign[k][i] = match *self {
+                sign[i][k] = match *self {
                     Self::True => v[k][i].sign(),
                     Self::Tanh { inverse_width } => v[k][i] * inverse_width,
                 };
@@ -65,7 +66,9 @@ impl<T: Scalar> FrictionSign<T> {
         };
         let mut vectors = [SVector::<T, N>::zeros(); K];
         for k in 0..K {
-            vectors[k].copy_from_slice(&sign[k]);
+            for i in 0..N {
+                vectors[k][i] = sign[i][k];
+            }
         }
         (vectors, sines)
     }

@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 /// Up to here the argument's reduction keeps its accuracy, rad.
 pub(crate) const SIN_COS_LIMIT: f64 = 1e5;
 /// From here on the hyperbolic tangent rounds to one: `e^{2x}` is beyond 2⁵⁵, which adding two leaves as it is.
-pub(crate) const TANH_LIMIT: f64 = 19.07;
+const TANH_LIMIT: f64 = 19.07;
 
 /// Adding and subtracting this rounds a number below 2⁵¹ to the nearest whole one; after adding it, the last bits of the sum
 /// are those of that whole number.
@@ -197,7 +197,7 @@ fn up_to_limit<T: Scalar>(magnitude: T) -> T {
 /// `(sin x, cos x)`; `x` in rad.
 #[inline(always)]
 pub(crate) fn sin_cos<T: Scalar>(x: T) -> (T, T) {
-    tanh_and_sin_cos([], [x]).1[0]
+    series([], [x]).1[0]
 }
 
 /// `tanh x`.
@@ -206,13 +206,16 @@ pub(crate) fn tanh<T: Scalar>(x: T) -> T {
     tanh_and_sin_cos([x], []).0[0]
 }
 
-/// Hyperbolic tangents in step, with the bits of [`tanh_and_sin_cos`]. Where all are ±1 nothing is computed: dry friction is there a good
-/// part of the time.
+/// Hyperbolic tangents, and sines and cosines of angles in rad, in step. Where all tangents are ±1 none is computed: dry friction is there
+/// a good part of the time. Their bits are the same.
 #[inline(always)]
-pub(crate) fn tanh_of_each<T: Scalar, const X: usize>(x: [T; X]) -> [T; X] {
+pub(crate) fn tanh_and_sin_cos<T: Scalar, const X: usize, const A: usize>(
+    x: [T; X],
+    angles: [T; A],
+) -> ([T; X], [(T, T); A]) {
     match saturated(x) {
-        Some(ones) => ones,
-        None => tanh_and_sin_cos(x, []).0,
+        Some(ones) => (ones, series([], angles).1),
+        None => series(x, angles),
     }
 }
 
@@ -237,13 +240,10 @@ fn saturated<T: Scalar, const X: usize>(x: [T; X]) -> Option<[T; X]> {
     Some(ones)
 }
 
-/// Hyperbolic tangents, and sines and cosines of angles in rad, in step: each series is a chain in which every instruction waits for the
-/// one before, and processors do not look far enough ahead to find the next chain by themselves.
+/// The same without exception. In step, because each series is a chain in which every instruction waits for the one before, and processors
+/// do not look far enough ahead to find the next chain by themselves.
 #[inline(always)]
-pub(crate) fn tanh_and_sin_cos<T: Scalar, const X: usize, const A: usize>(
-    x: [T; X],
-    angles: [T; A],
-) -> ([T; X], [(T, T); A]) {
+fn series<T: Scalar, const X: usize, const A: usize>(x: [T; X], angles: [T; A]) -> ([T; X], [(T, T); A]) {
     // As many as the longest series takes.
     const STEPS: usize = Series::<f64, 11>::STEPS;
     let (mut exponents, mut turns) = ([Exponent::of(T::zero()); X], [Turn::of(T::zero()); A]);
@@ -332,8 +332,8 @@ mod tests {
         fn saturation_has_the_bits_of_the_whole_computation(
             x in prop::array::uniform3(prop_oneof![-30.0..30.0_f64, 18.9..19.2_f64, -1e6..1e6_f64]),
         ) {
-            let (whole, []) = tanh_and_sin_cos(x, []);
-            prop_assert_eq!(tanh_of_each(x).map(f64::to_bits), whole.map(f64::to_bits));
+            let (whole, []) = series(x, []);
+            prop_assert_eq!(tanh_and_sin_cos(x, []).0.map(f64::to_bits), whole.map(f64::to_bits));
             prop_assert_eq!(x.map(|x| Scalar::tanh(x).to_bits()), whole.map(f64::to_bits));
         }
 

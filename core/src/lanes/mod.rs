@@ -75,7 +75,7 @@ fn once<K: Kernel>(kernel: K) -> K::Output {
 fn tanh_in_step<T: Scalar, const MOST: usize>(x: &mut [T]) -> &mut [T] {
     let (together, rest) = x.as_chunks_mut::<MOST>();
     for n in 0..together.len() {
-        together[n] = crate::transcendental::tanh_of_each(together[n]);
+        together[n] = crate::transcendental::tanh_and_sin_cos(together[n], []).0;
     }
     rest
 }

@@ -121,7 +121,9 @@ fn with_sines<const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vec
 /// The same for what fits `X` vectors.
 #[inline(always)]
 fn vectors<const X: usize, const A: usize>(x: &mut [Neighbour], angles: [Vector; A]) -> [(Vector, Vector); A] {
-    let mut filled = [[Neighbour(0.0); Vector::LANES]; X];
+    // One more of the same, not zero: a zero beside saturated numbers would have all of them computed.
+    let padding = x.first().copied().unwrap_or(Neighbour(0.0));
+    let mut filled = [[padding; Vector::LANES]; X];
     filled.as_flattened_mut()[..x.len()].copy_from_slice(x);
     let mut packs = [Vector::repeat(0.0); X];
     for n in 0..X {

@@ -4,7 +4,7 @@
 #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
 use super::F64x2;
 use crate::scalar::{Kernel, Scalar, sin_cos_of_any};
-use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT, TANH_LIMIT};
+use crate::transcendental::{self, ROUNDING, SIN_COS_LIMIT};
 
 impl Scalar for f64 {
     type Mask = bool;
@@ -39,8 +39,7 @@ impl Scalar for f64 {
     }
     #[inline(always)]
     fn tanh(self) -> Self {
-        // The same bits as the whole computation gives; dry friction is there most of the time.
-        if TANH_LIMIT <= self.abs() { f64::copysign(1.0, self) } else { transcendental::tanh(self) }
+        transcendental::tanh(self)
     }
     #[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
     #[inline(always)]
