@@ -69,7 +69,7 @@ fn durations() -> Result<()> {
 fn threads() -> Result<()> {
     const RUNS: usize = 1000;
     const SHARE: usize = 8;
-    const THREAD_ROUNDS: usize = 7;
+    const THREAD_ROUNDS: usize = 15;
     let scenarios = (0..RUNS)
         .map(|n| {
             let mut document = Scheme::Proposed.paper();
