@@ -8,7 +8,7 @@
 //! law ([`adaptation`]). Start at [`scenario::Scenario`]; the paper's equations live in the files that name them.
 //! Nothing here reads files, clocks or the network, and every target computes the same bits.
 //!
-//! Unoptimised, a run takes 2 to 3 MiB of stack, which is more than a thread has: optimise this crate in development
+//! Unoptimised, a run takes 2 to 3 MiB of stack, which is more than Rust gives to a thread that it starts: optimise this crate in development
 //! too (`[profile.dev.package.adaptarm-core] opt-level = 3`), or give threads that run it 8 MiB.
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "the platform's functions are what tests compare with"))]
 
